@@ -1,0 +1,240 @@
+//! Counting misses: one replay serves every metric.
+
+use super::CacheModel;
+use super::batch::Batches;
+use super::controllable::belady;
+use super::fifo::Fifo;
+use super::lru::Lru;
+
+/// Calls `visit(face number, misses)` for each face in order.
+fn replay(faces: &[[u32; 3]], model: CacheModel, mut visit: impl FnMut(usize, u8)) {
+    let vertex_count = vertex_span(faces);
+    let each_corner = |miss: &mut dyn FnMut(u32) -> bool, visit: &mut dyn FnMut(usize, u8)| {
+        for (number, face) in faces.iter().enumerate() {
+            visit(number, face.map(|v| u8::from(miss(v))).iter().sum());
+        }
+    };
+    match model {
+        CacheModel::Fifo { size } => {
+            let mut cache = Fifo::new(size, vertex_count);
+            each_corner(&mut |v| cache.miss(v), &mut visit);
+        }
+        CacheModel::Lru { size } => {
+            let mut cache = Lru::new(size, vertex_count);
+            each_corner(&mut |v| cache.miss(v), &mut visit);
+        }
+        CacheModel::Controllable { size } => belady(faces, vertex_count, size, visit),
+        CacheModel::Batch(batch) => {
+            let mut cache = Batches::new(batch, vertex_count);
+            for (number, &face) in faces.iter().enumerate() {
+                visit(number, cache.draw(face));
+            }
+        }
+    }
+}
+
+/// One past the largest index.
+fn vertex_span(faces: &[[u32; 3]]) -> usize {
+    faces
+        .iter()
+        .flatten()
+        .map(|&v| v as usize + 1)
+        .max()
+        .unwrap_or(0)
+}
+
+fn used_vertices(faces: &[[u32; 3]]) -> usize {
+    let mut used = vec![false; vertex_span(faces)];
+    for &v in faces.iter().flatten() {
+        used[v as usize] = true;
+    }
+    used.into_iter().filter(|&u| u).count()
+}
+
+/// What one cache model counts on one face order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct CacheReport {
+    /// Vertices that were transformed.
+    pub misses: u64,
+    /// Faces drawn.
+    pub faces: usize,
+    /// Vertices that some face names.
+    pub used_vertices: usize,
+}
+
+impl CacheReport {
+    /// Misses per face; 0 without faces.
+    #[must_use]
+    pub fn acmr(&self) -> f64 {
+        ratio(self.misses, self.faces)
+    }
+
+    /// Misses per used vertex; 0 without faces.
+    #[must_use]
+    pub fn atvr(&self) -> f64 {
+        ratio(self.misses, self.used_vertices)
+    }
+}
+
+fn ratio(count: u64, of: usize) -> f64 {
+    if of == 0 {
+        0.0
+    } else {
+        count as f64 / of as f64
+    }
+}
+
+/// Misses, faces and used vertices of this order under this cache.
+///
+/// # Complexity
+/// Time O(faces), for a controllable cache O(faces · log size); space O(largest index), for a
+/// controllable cache also 12 bytes a face.
+#[must_use]
+pub fn report(faces: &[[u32; 3]], model: CacheModel) -> CacheReport {
+    CacheReport {
+        misses: misses(faces, model),
+        faces: faces.len(),
+        used_vertices: used_vertices(faces),
+    }
+}
+
+/// How many vertices are transformed while the faces are drawn in this order.
+///
+/// ```
+/// use meshweft::{CacheModel, cache};
+/// // Two faces that share an edge: three misses, then one.
+/// assert_eq!(cache::misses(&[[0, 1, 2], [2, 1, 3]], CacheModel::fifo(16)), 4);
+/// ```
+///
+/// # Complexity
+/// As [`report`].
+#[must_use]
+pub fn misses(faces: &[[u32; 3]], model: CacheModel) -> u64 {
+    let mut total = 0;
+    replay(faces, model, |_, missed| total += u64::from(missed));
+    total
+}
+
+/// The average cache miss ratio: misses per face, between 0 and 3; 0 without faces.
+///
+/// ```
+/// use meshweft::{CacheModel, cache};
+/// assert_eq!(cache::acmr(&[[0, 1, 2], [2, 1, 3]], CacheModel::fifo(16)), 2.0);
+/// ```
+///
+/// # Complexity
+/// As [`report`].
+#[must_use]
+pub fn acmr(faces: &[[u32; 3]], model: CacheModel) -> f64 {
+    ratio(misses(faces, model), faces.len())
+}
+
+/// The average transform to vertex ratio: misses per used vertex, at least 1; 0 without faces.
+///
+/// ```
+/// use meshweft::{CacheModel, cache};
+/// assert_eq!(cache::atvr(&[[0, 1, 2], [2, 1, 3]], CacheModel::fifo(16)), 1.0);
+/// ```
+///
+/// # Complexity
+/// As [`report`].
+#[must_use]
+pub fn atvr(faces: &[[u32; 3]], model: CacheModel) -> f64 {
+    report(faces, model).atvr()
+}
+
+/// How many corners of each face missed, 0 to 3: what a heat map shows.
+///
+/// # Complexity
+/// As [`report`], and one byte a face.
+#[must_use]
+pub fn misses_per_face(faces: &[[u32; 3]], model: CacheModel) -> Vec<u8> {
+    let mut missed_at = vec![0; faces.len()];
+    replay(faces, model, |number, missed| missed_at[number] = missed);
+    missed_at
+}
+
+/// Bytes fetched for vertex records of `vertex_size` bytes, over the bytes of the used records.
+///
+/// At least about 1; 0 without faces. The memory is cached in 64-byte lines by a direct-mapped
+/// cache of 128 KiB, the model of meshoptimizer's analyzer, and every index fetches its record.
+///
+/// # Panics
+/// If `vertex_size` is 0.
+///
+/// # Complexity
+/// Time O(faces · `vertex_size` / 64), space O(largest index).
+#[must_use]
+pub fn overfetch(faces: &[[u32; 3]], vertex_size: usize) -> f64 {
+    const LINE: u64 = 64;
+    const LINES: u64 = 128 * 1024 / LINE;
+    assert!(vertex_size > 0, "a vertex record has at least one byte");
+    let mut cached = [0_u64; LINES as usize];
+    let mut fetched = 0;
+    let size = vertex_size as u64;
+    for &vertex in faces.iter().flatten() {
+        let start = u64::from(vertex) * size;
+        for line in start / LINE..(start + size).div_ceil(LINE) {
+            // Lines are stored plus one: zero is "nothing yet".
+            let slot = &mut cached[usize::try_from(line % LINES).unwrap_or(0)];
+            if *slot != line + 1 {
+                *slot = line + 1;
+                fetched += LINE;
+            }
+        }
+    }
+    ratio(fetched, used_vertices(faces) * vertex_size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 3 × 3 quads, two faces each, row by row, 16 vertices.
+    fn grid() -> Vec<[u32; 3]> {
+        let quad = |x: u32, y: u32| {
+            let v = y * 4 + x;
+            [[v, v + 1, v + 4], [v + 4, v + 1, v + 5]]
+        };
+        (0..3)
+            .flat_map(|y| (0..3).flat_map(move |x| quad(x, y)))
+            .collect()
+    }
+
+    #[test]
+    fn a_grid_can_be_counted_on_paper() {
+        let faces = grid();
+        // All 16 vertices fit: each is transformed once.
+        assert_eq!(misses(&faces, CacheModel::fifo(16)), 16);
+        assert_eq!(atvr(&faces, CacheModel::lru(16)), 1.0);
+        // Four entries still hold an edge from one quad to the next, so within a row each face
+        // after the first misses one corner; nothing is left of a row when the next one starts.
+        let per_face = misses_per_face(&faces[..6], CacheModel::fifo(4));
+        assert_eq!(per_face, [3, 1, 1, 1, 1, 1]);
+        assert_eq!(misses(&faces, CacheModel::fifo(4)), 24);
+        assert_eq!(acmr(&faces, CacheModel::fifo(4)), 24.0 / 18.0);
+    }
+
+    #[test]
+    fn no_faces_are_no_misses() {
+        for model in [
+            CacheModel::fifo(16),
+            CacheModel::lru(16),
+            CacheModel::controllable(16),
+            CacheModel::NVIDIA,
+        ] {
+            let empty = report(&[], model);
+            assert_eq!((empty.misses, empty.acmr(), empty.atvr()), (0, 0.0, 0.0));
+        }
+        assert_eq!(overfetch(&[], 32), 0.0);
+    }
+
+    #[test]
+    fn records_in_use_order_are_fetched_once() {
+        // Sixteen records of 64 bytes, each its own line.
+        assert_eq!(overfetch(&grid(), 64), 1.0);
+        // One record of 16 bytes still costs a line of 64.
+        assert_eq!(overfetch(&[[0, 0, 0]], 16), 4.0);
+    }
+}

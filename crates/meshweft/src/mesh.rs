@@ -1,0 +1,190 @@
+//! A triangle mesh, checked once.
+
+use crate::error::MeshError;
+use crate::limits::{MAX_FACES, MAX_VERTICES};
+use crate::permutation::{FaceOrder, VertexOrder};
+
+/// Vertices and faces whose indices are known to be in range.
+///
+/// Every input is legal that names vertices in range: isolated vertices, faces that name a vertex
+/// twice, faces that come twice, edges and vertices of any kind, any orientation, no faces at all.
+///
+/// ```
+/// use meshweft::Mesh;
+/// let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// let mesh = Mesh::new(&positions, &[[0, 1, 2]])?;
+/// assert_eq!((mesh.vertex_count(), mesh.face_count()), (3, 1));
+/// assert_eq!(
+///     Mesh::new(&positions, &[[0, 1, 3]]).unwrap_err().to_string(),
+///     "face 0, corner 2: index 3 is past the last vertex (2)"
+/// );
+/// # Ok::<(), meshweft::MeshError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mesh {
+    /// One entry a vertex, or empty where only the connectivity is known.
+    positions: Vec<[f32; 3]>,
+    faces: Vec<[u32; 3]>,
+    vertex_count: usize,
+}
+
+impl Mesh {
+    /// The mesh of these vertices and faces.
+    ///
+    /// # Errors
+    /// [`MeshError::IndexOutOfRange`] for the first index that names no vertex,
+    /// [`MeshError::TooLarge`] beyond 2³² − 1 vertices or (2³² − 1) / 3 faces.
+    ///
+    /// # Complexity
+    /// Time O(faces); no memory beyond the arrays handed over.
+    pub fn new(
+        positions: impl Into<Vec<[f32; 3]>>,
+        faces: impl Into<Vec<[u32; 3]>>,
+    ) -> Result<Self, MeshError> {
+        let positions = positions.into();
+        let vertex_count = positions.len();
+        Self::checked(positions, vertex_count, faces.into())
+    }
+
+    /// A mesh without positions: all that ordering for a vertex cache needs.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn connectivity_only(
+        vertex_count: usize,
+        faces: impl Into<Vec<[u32; 3]>>,
+    ) -> Result<Self, MeshError> {
+        Self::checked(Vec::new(), vertex_count, faces.into())
+    }
+
+    fn checked(
+        positions: Vec<[f32; 3]>,
+        vertex_count: usize,
+        faces: Vec<[u32; 3]>,
+    ) -> Result<Self, MeshError> {
+        for (what, count, limit) in [
+            ("vertices", vertex_count, MAX_VERTICES),
+            ("faces", faces.len(), MAX_FACES),
+        ] {
+            if count > limit {
+                return Err(MeshError::TooLarge { what, count, limit });
+            }
+        }
+        let out_of_range = |face: &[u32; 3]| face.iter().any(|&v| v as usize >= vertex_count);
+        if let Some(face) = faces.iter().position(out_of_range) {
+            let corner = (0..3)
+                .find(|&corner| faces[face][corner] as usize >= vertex_count)
+                .unwrap_or(0);
+            return Err(MeshError::IndexOutOfRange {
+                face,
+                corner,
+                index: faces[face][corner],
+                vertex_count,
+            });
+        }
+        Ok(Self {
+            positions,
+            faces,
+            vertex_count,
+        })
+    }
+
+    /// The position of each vertex; empty if the mesh was made without.
+    #[must_use]
+    pub fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+
+    /// The three vertices of each face.
+    #[must_use]
+    pub fn faces(&self) -> &[[u32; 3]] {
+        &self.faces
+    }
+
+    /// How many vertices there are, used or not.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.vertex_count
+    }
+
+    /// How many faces there are.
+    #[must_use]
+    pub fn face_count(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// The same mesh with its faces drawn in another order.
+    ///
+    /// # Panics
+    /// If the order is of another number of faces.
+    #[must_use]
+    pub fn with_face_order(&self, order: &FaceOrder) -> Self {
+        Self {
+            positions: self.positions.clone(),
+            faces: order.apply(&self.faces),
+            vertex_count: self.vertex_count,
+        }
+    }
+
+    /// The same mesh with its vertices stored in another order and the faces renumbered to match.
+    ///
+    /// # Panics
+    /// If the order is of another number of vertices.
+    #[must_use]
+    pub fn with_vertex_order(&self, order: &VertexOrder) -> Self {
+        assert_eq!(
+            order.len(),
+            self.vertex_count,
+            "vertex order of another length"
+        );
+        Self {
+            positions: match self.positions.is_empty() {
+                true => Vec::new(),
+                false => order.permutation().apply(&self.positions),
+            },
+            faces: order.renumber(&self.faces),
+            vertex_count: self.vertex_count,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::permutation::Permutation;
+
+    #[test]
+    fn the_first_bad_corner_is_named() {
+        let error = Mesh::connectivity_only(4, [[0, 1, 2], [3, 4, 5]]).unwrap_err();
+        let expected = MeshError::IndexOutOfRange {
+            face: 1,
+            corner: 1,
+            index: 4,
+            vertex_count: 4,
+        };
+        assert_eq!(error, expected);
+    }
+
+    #[test]
+    fn no_vertices_and_no_faces_is_a_mesh() {
+        let mesh = Mesh::connectivity_only(0, []).unwrap();
+        assert_eq!(mesh.with_face_order(&FaceOrder::identity(0)), mesh);
+        assert_eq!(mesh.with_vertex_order(&VertexOrder::identity(0)), mesh);
+        assert_eq!(
+            Mesh::connectivity_only(0, [[0, 0, 0]])
+                .unwrap_err()
+                .to_string(),
+            "face 0, corner 0: index 0, but the mesh has no vertices"
+        );
+    }
+
+    #[test]
+    fn vertex_order_moves_positions_and_renumbers() {
+        let positions = [[0.0; 3], [1.0; 3], [2.0; 3]];
+        let mesh = Mesh::new(positions, [[0, 1, 2]]).unwrap();
+        let order = VertexOrder::from(Permutation::new(vec![1, 2, 0]).unwrap());
+        let moved = mesh.with_vertex_order(&order);
+        assert_eq!(moved.positions(), [[1.0; 3], [2.0; 3], [0.0; 3]]);
+        assert_eq!(moved.faces(), [[2, 0, 1]]);
+    }
+}

@@ -1,0 +1,2 @@
+//! Rendering sequences.
+pub mod baselines;

@@ -1,0 +1,391 @@
+//! Orders as values, with one documented direction.
+//!
+//! The classic bug of this field is a table read backwards. Here there is one convention:
+//! a permutation is stored as `new_to_old`, so `out[i] = in[new_to_old[i]]`.
+
+use crate::error::MeshError;
+use crate::limits::{MAX_VERTICES, index32};
+
+/// Each number below its length once: `out[i] = in[new_to_old[i]]`.
+///
+/// ```
+/// use meshweft::Permutation;
+/// let p = Permutation::new(vec![2, 0, 1])?;
+/// assert_eq!(p.apply(&['a', 'b', 'c']), ['c', 'a', 'b']);
+/// assert_eq!(p.inverse().apply(&p.apply(&['a', 'b', 'c'])), ['a', 'b', 'c']);
+/// # Ok::<(), meshweft::MeshError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
+pub struct Permutation {
+    new_to_old: Vec<u32>,
+}
+
+impl Permutation {
+    /// The permutation with `out[i] = in[new_to_old[i]]`.
+    ///
+    /// # Errors
+    /// [`MeshError::NotAPermutation`] if a value is too large or comes twice,
+    /// [`MeshError::TooLarge`] if there are more than 2³² − 1 entries.
+    ///
+    /// # Complexity
+    /// Time O(n), space n bits.
+    pub fn new(new_to_old: Vec<u32>) -> Result<Self, MeshError> {
+        let len = new_to_old.len();
+        if len > MAX_VERTICES {
+            return Err(MeshError::TooLarge {
+                what: "entries",
+                count: len,
+                limit: MAX_VERTICES,
+            });
+        }
+        let mut seen = vec![0_u64; len.div_ceil(64)];
+        for (position, &value) in new_to_old.iter().enumerate() {
+            let (word, bit) = (value as usize / 64, 1_u64 << (value % 64));
+            if value as usize >= len || seen[word] & bit != 0 {
+                return Err(MeshError::NotAPermutation {
+                    position,
+                    value,
+                    len,
+                });
+            }
+            seen[word] |= bit;
+        }
+        Ok(Self { new_to_old })
+    }
+
+    /// A permutation that an algorithm of this crate built; checked in debug builds only.
+    pub(crate) fn from_algorithm(new_to_old: Vec<u32>) -> Self {
+        debug_assert!(Self::new(new_to_old.clone()).is_ok());
+        Self { new_to_old }
+    }
+
+    /// The permutation that changes nothing.
+    ///
+    /// # Panics
+    /// If `len` is more than 2³² − 1.
+    #[must_use]
+    pub fn identity(len: usize) -> Self {
+        assert!(
+            len <= MAX_VERTICES,
+            "more entries than 32-bit indices count"
+        );
+        Self {
+            new_to_old: (0..index32(len)).collect(),
+        }
+    }
+
+    /// The old position of each new position.
+    #[must_use]
+    pub fn new_to_old(&self) -> &[u32] {
+        &self.new_to_old
+    }
+
+    /// The new position of each old position.
+    #[must_use]
+    pub fn old_to_new(&self) -> Vec<u32> {
+        let mut old_to_new = vec![0; self.new_to_old.len()];
+        for (new, &old) in self.new_to_old.iter().enumerate() {
+            old_to_new[old as usize] = index32(new);
+        }
+        old_to_new
+    }
+
+    /// The permutation that undoes this one.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        Self {
+            new_to_old: self.old_to_new(),
+        }
+    }
+
+    /// How many entries it has.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.new_to_old.len()
+    }
+
+    /// Whether it has no entries.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.new_to_old.is_empty()
+    }
+
+    /// Whether it changes nothing.
+    #[must_use]
+    pub fn is_identity(&self) -> bool {
+        (0_u32..)
+            .zip(&self.new_to_old)
+            .all(|(new, &old)| new == old)
+    }
+
+    /// The entries of `input` in the new order.
+    ///
+    /// # Panics
+    /// If `input` has another length.
+    #[must_use]
+    pub fn apply<T: Clone>(&self, input: &[T]) -> Vec<T> {
+        assert_eq!(input.len(), self.len(), "permutation of another length");
+        self.new_to_old
+            .iter()
+            .map(|&old| input[old as usize].clone())
+            .collect()
+    }
+}
+
+/// The order in which faces are drawn, and how far each one's corners are turned.
+///
+/// Turning moves the first corner to another of the three, never the winding: with rotation `r`,
+/// new corner `j` is old corner `(j + r) % 3`.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
+pub struct FaceOrder {
+    permutation: Permutation,
+    /// One entry a face in the *new* order, or empty where no corner is turned.
+    rotations: Vec<u8>,
+}
+
+impl FaceOrder {
+    /// The order that draws old face `new_to_old[i]` as the `i`-th, corners turned by `rotations[i]`.
+    ///
+    /// `rotations` is empty (no corner is turned) or as long as the permutation.
+    ///
+    /// # Errors
+    /// [`MeshError::LengthMismatch`] or [`MeshError::InvalidRotation`].
+    pub fn new(permutation: Permutation, rotations: Vec<u8>) -> Result<Self, MeshError> {
+        if !rotations.is_empty() && rotations.len() != permutation.len() {
+            return Err(MeshError::LengthMismatch {
+                what: "rotations of a face order",
+                expected: permutation.len(),
+                found: rotations.len(),
+            });
+        }
+        if let Some(position) = rotations.iter().position(|&r| r > 2) {
+            return Err(MeshError::InvalidRotation {
+                position,
+                value: rotations[position],
+            });
+        }
+        Ok(Self {
+            permutation,
+            rotations,
+        })
+    }
+
+    /// The order that changes nothing.
+    ///
+    /// # Panics
+    /// If `face_count` is more than 2³² − 1.
+    #[must_use]
+    pub fn identity(face_count: usize) -> Self {
+        Self::from(Permutation::identity(face_count))
+    }
+
+    /// The permutation of the faces, without the rotations.
+    #[must_use]
+    pub fn permutation(&self) -> &Permutation {
+        &self.permutation
+    }
+
+    /// The old face of each new face.
+    #[must_use]
+    pub fn new_to_old(&self) -> &[u32] {
+        self.permutation.new_to_old()
+    }
+
+    /// How far the corners of the `new_face`-th face are turned: 0, 1 or 2.
+    ///
+    /// # Panics
+    /// If corners are turned and `new_face` is not below [`len`](Self::len).
+    #[must_use]
+    pub fn rotation(&self, new_face: usize) -> u8 {
+        if self.rotations.is_empty() {
+            0
+        } else {
+            self.rotations[new_face]
+        }
+    }
+
+    /// All rotations in the new order; empty if no corner is turned.
+    #[must_use]
+    pub fn rotations(&self) -> &[u8] {
+        &self.rotations
+    }
+
+    /// How many faces it orders.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.permutation.len()
+    }
+
+    /// Whether it orders no faces.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.permutation.is_empty()
+    }
+
+    /// Whether it neither moves a face nor turns a corner.
+    #[must_use]
+    pub fn is_identity(&self) -> bool {
+        self.permutation.is_identity() && self.rotations.iter().all(|&r| r == 0)
+    }
+
+    /// The records of `corners`, three a face, in the new order with the corners turned.
+    ///
+    /// Works for vertex indices and for whatever else hangs on a corner.
+    ///
+    /// # Panics
+    /// If `faces` has another length.
+    ///
+    /// ```
+    /// use meshweft::{FaceOrder, Permutation};
+    /// let order = FaceOrder::new(Permutation::new(vec![1, 0])?, vec![2, 0])?;
+    /// assert_eq!(order.apply(&[[0, 1, 2], [2, 1, 3]]), [[3, 2, 1], [0, 1, 2]]);
+    /// # Ok::<(), meshweft::MeshError>(())
+    /// ```
+    #[must_use]
+    pub fn apply<T: Copy>(&self, faces: &[[T; 3]]) -> Vec<[T; 3]> {
+        assert_eq!(faces.len(), self.len(), "face order of another length");
+        let rotated = |(new, &old): (usize, &u32)| {
+            let [a, b, c] = faces[old as usize];
+            match self.rotation(new) {
+                0 => [a, b, c],
+                1 => [b, c, a],
+                _ => [c, a, b],
+            }
+        };
+        self.new_to_old().iter().enumerate().map(rotated).collect()
+    }
+}
+
+impl From<Permutation> for FaceOrder {
+    fn from(permutation: Permutation) -> Self {
+        Self {
+            permutation,
+            rotations: Vec::new(),
+        }
+    }
+}
+
+/// The order in which vertices are stored.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
+pub struct VertexOrder {
+    permutation: Permutation,
+}
+
+impl VertexOrder {
+    /// The order that changes nothing.
+    ///
+    /// # Panics
+    /// If `vertex_count` is more than 2³² − 1.
+    #[must_use]
+    pub fn identity(vertex_count: usize) -> Self {
+        Self::from(Permutation::identity(vertex_count))
+    }
+
+    /// The permutation of the vertices.
+    #[must_use]
+    pub fn permutation(&self) -> &Permutation {
+        &self.permutation
+    }
+
+    /// The old vertex of each new vertex.
+    #[must_use]
+    pub fn new_to_old(&self) -> &[u32] {
+        self.permutation.new_to_old()
+    }
+
+    /// How many vertices it orders.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.permutation.len()
+    }
+
+    /// Whether it orders no vertices.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.permutation.is_empty()
+    }
+
+    /// Whether it moves no vertex.
+    #[must_use]
+    pub fn is_identity(&self) -> bool {
+        self.permutation.is_identity()
+    }
+
+    /// The same faces, naming vertices by their new numbers.
+    ///
+    /// # Panics
+    /// If a face names a vertex that the order does not have.
+    #[must_use]
+    pub fn renumber(&self, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
+        let old_to_new = self.permutation.old_to_new();
+        faces
+            .iter()
+            .map(|face| face.map(|vertex| old_to_new[vertex as usize]))
+            .collect()
+    }
+}
+
+impl From<Permutation> for VertexOrder {
+    fn from(permutation: Permutation) -> Self {
+        Self { permutation }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_repetition_is_refused_and_named() {
+        let error = Permutation::new(vec![0, 2, 2]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "not a permutation: entry 2 is 2, which is a repetition for length 3"
+        );
+    }
+
+    #[test]
+    fn a_value_past_the_end_is_refused_and_named() {
+        let error = Permutation::new(vec![0, 3, 1]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "not a permutation: entry 1 is 3, which is too large for length 3"
+        );
+    }
+
+    #[test]
+    fn inverse_swaps_the_two_directions() {
+        let p = Permutation::new(vec![2, 0, 3, 1]).unwrap();
+        assert_eq!(p.old_to_new(), [1, 3, 0, 2]);
+        assert_eq!(p.inverse().new_to_old(), p.old_to_new());
+        assert_eq!(p.inverse().inverse(), p);
+    }
+
+    #[test]
+    fn rotations_keep_the_winding() {
+        let order = FaceOrder::new(Permutation::identity(3), vec![0, 1, 2]).unwrap();
+        let turned = order.apply(&[[7, 8, 9]; 3]);
+        assert_eq!(turned, [[7, 8, 9], [8, 9, 7], [9, 7, 8]]);
+    }
+
+    #[test]
+    fn a_fourth_corner_is_refused() {
+        let error = FaceOrder::new(Permutation::identity(2), vec![0, 3]).unwrap_err();
+        assert_eq!(
+            error,
+            MeshError::InvalidRotation {
+                position: 1,
+                value: 3
+            }
+        );
+        assert!(FaceOrder::new(Permutation::identity(2), vec![0]).is_err());
+    }
+
+    #[test]
+    fn renumbering_follows_the_vertices() {
+        let order = VertexOrder::from(Permutation::new(vec![2, 0, 1]).unwrap());
+        let positions = order.permutation().apply(&["a", "b", "c"]);
+        let faces = order.renumber(&[[0, 1, 2]]);
+        assert_eq!(faces[0].map(|v| positions[v as usize]), ["a", "b", "c"]);
+    }
+}
