@@ -1,2 +1,11 @@
-//! Rendering sequences.
+//! Rendering sequences: in which order to draw the faces, and to store the vertices.
+//!
+//! [`KCacheReorder`] is the method of this toolkit; [`baselines`] are what it is compared with.
+//! Faces come first, then [`vertex_fetch`] puts the vertices in the order of their first use.
+
 pub mod baselines;
+mod k_cache_reorder;
+mod vertex_fetch;
+
+pub use k_cache_reorder::{KCacheReorder, Mode};
+pub use vertex_fetch::vertex_fetch;

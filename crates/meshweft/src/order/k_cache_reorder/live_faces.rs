@@ -1,0 +1,184 @@
+//! Which faces of each vertex are not drawn yet, and how many of their corners are white.
+
+use std::ops::Range;
+
+use crate::limits::index32;
+
+/// A vertex on more faces than this is a *hub*: its comings and goings are not announced to its
+/// neighbours and it is not run tentatively. That bounds the work of a step, whatever the valence.
+pub(super) const HUB: u32 = 64;
+
+/// Live counts from this on share one dead-end stack.
+const STACKS: usize = 8;
+
+/// What a step needs to know of a vertex, side by side in memory.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Vertex {
+    /// FIFO: the clock when it was last pushed, 0 before. Controllable: whether it is in the cache.
+    pub(super) entered: u32,
+    /// Start of its row of faces; the next vertex's start ends it.
+    row: u32,
+    /// Its corners in faces that are not drawn yet. 0: black.
+    pub(super) live: u32,
+    /// White corners of its live faces: its neighbours', and while it is white its own.
+    pub(super) white_corners: u32,
+}
+
+impl Vertex {
+    /// At least how many pushes finishing it takes: each white neighbour inside its fan is seen
+    /// from two live faces.
+    #[inline]
+    pub(super) fn white_neighbours(&self) -> u32 {
+        self.white_corners.div_ceil(2)
+    }
+}
+
+/// The state of a greedy traversal, apart from its cache.
+pub(super) struct LiveFaces<'a> {
+    pub(super) faces: &'a [[u32; 3]],
+    /// One more entry than vertices, so that each row has an end.
+    pub(super) vertices: Vec<Vertex>,
+    /// Rows of face numbers, drawn faces included.
+    rows: Vec<u32>,
+    /// Whether each face is drawn. Bytes, not bits: they are tested more often than a row is read.
+    drawn: Vec<bool>,
+    /// Vertices that left the cache unfinished, by live count.
+    dead_ends: [Vec<u32>; STACKS],
+    /// No vertex before this one is untouched.
+    untouched: u32,
+}
+
+impl<'a> LiveFaces<'a> {
+    /// No face is drawn and every vertex is white.
+    pub(super) fn new(faces: &'a [[u32; 3]], vertex_count: usize) -> Self {
+        let mut vertices = vec![Vertex::default(); vertex_count + 1];
+        for &[a, b, c] in faces {
+            vertices[a as usize].live += 1;
+            vertices[b as usize].live += 1;
+            vertices[c as usize].live += 1;
+        }
+        // `row` walks from the end of the row to its start while the row is filled from behind.
+        let mut end = 0;
+        for vertex in &mut vertices {
+            end += vertex.live;
+            vertex.row = end;
+            vertex.white_corners = vertex.live.wrapping_mul(3);
+        }
+        let mut rows = vec![0; faces.len() * 3];
+        for (face, corners) in (0..index32(faces.len())).zip(faces).rev() {
+            for &corner in corners {
+                let row = &mut vertices[corner as usize].row;
+                *row -= 1;
+                rows[*row as usize] = face;
+            }
+        }
+        Self {
+            faces,
+            vertices,
+            rows,
+            drawn: vec![false; faces.len()],
+            dead_ends: Default::default(),
+            untouched: 0,
+        }
+    }
+
+    #[inline]
+    fn row(&self, vertex: u32) -> Range<usize> {
+        let start = self.vertices[vertex as usize].row as usize;
+        let end = self.vertices[vertex as usize + 1].row as usize;
+        start..end
+    }
+
+    /// Writes the live faces of `vertex`, in file order, to the front of `buffer`; how many.
+    #[inline]
+    pub(super) fn gather(&self, vertex: u32, buffer: &mut Vec<u32>) -> usize {
+        let row = &self.rows[self.row(vertex)];
+        if buffer.len() < row.len() {
+            buffer.resize(row.len(), 0);
+        }
+        let live = &mut buffer[..row.len()];
+        let mut count = 0;
+        for &face in row {
+            // Written in any case and kept only if live: no branch for the processor to guess.
+            live[count] = face;
+            count += usize::from(!self.drawn[face as usize]);
+        }
+        count
+    }
+
+    /// Marks `face` drawn; false if it was (a face that names a vertex twice is met twice).
+    #[inline]
+    pub(super) fn mark_drawn(&mut self, face: u32) -> bool {
+        !std::mem::replace(&mut self.drawn[face as usize], true)
+    }
+
+    /// Takes a drawn face with `white` white corners off the counts of its corners.
+    #[inline]
+    pub(super) fn remove_corners(&mut self, corners: [u32; 3], white: u32) {
+        for corner in corners {
+            let vertex = &mut self.vertices[corner as usize];
+            vertex.live -= 1;
+            vertex.white_corners = vertex.white_corners.wrapping_sub(white);
+        }
+    }
+
+    /// Tells the neighbours of `vertex` that it entered the cache.
+    #[inline]
+    pub(super) fn announce_entry(&mut self, vertex: u32) {
+        self.announce(vertex, 1_u32.wrapping_neg());
+    }
+
+    /// Tells the neighbours of `vertex` that it left the cache, and remembers it for dead ends.
+    #[inline]
+    pub(super) fn announce_unfinished_exit(&mut self, vertex: u32) {
+        self.announce(vertex, 1);
+        let slot = stack_of(self.vertices[vertex as usize].live);
+        let stack = &mut self.dead_ends[slot];
+        if stack.len() == stack.capacity() {
+            // Entries whose vertex was drawn further since then are of no use.
+            let vertices = &self.vertices;
+            stack.retain(|&v| stack_of(vertices[v as usize].live) == slot);
+        }
+        stack.push(vertex);
+    }
+
+    /// Adds `change` to the white corners of all corners of the live faces of a vertex that is no
+    /// hub.
+    #[inline]
+    fn announce(&mut self, vertex: u32, change: u32) {
+        let row = self.row(vertex);
+        if row.len() > HUB as usize {
+            return;
+        }
+        let vertices = &mut self.vertices[..];
+        for &face in &self.rows[row] {
+            let change = change * u32::from(!self.drawn[face as usize]);
+            for corner in self.faces[face as usize] {
+                let neighbour = &mut vertices[corner as usize];
+                neighbour.white_corners = neighbour.white_corners.wrapping_add(change);
+            }
+        }
+    }
+
+    /// Where to go on when no live vertex is in the cache: the vertex with the fewest live faces
+    /// among those that left it unfinished, the last to leave first; else the first untouched one
+    /// in file order; `None` if all faces are drawn.
+    pub(super) fn after_dead_end(&mut self) -> Option<u32> {
+        for (slot, stack) in self.dead_ends.iter_mut().enumerate() {
+            while let Some(vertex) = stack.pop() {
+                if stack_of(self.vertices[vertex as usize].live) == slot {
+                    return Some(vertex);
+                }
+            }
+        }
+        let rest = &self.vertices[self.untouched as usize..];
+        self.untouched += index32(rest.iter().position(|v| v.live != 0)?);
+        Some(self.untouched)
+    }
+}
+
+/// The dead-end stack of a live count; none for 0.
+#[inline]
+fn stack_of(live: u32) -> usize {
+    (live as usize).min(STACKS).wrapping_sub(1)
+}
