@@ -24,7 +24,10 @@ pub(super) fn face_order(
 ) -> FaceOrder {
     let adjacency = Adjacency::new(faces, vertex_count);
     let around = (0..index32(vertex_count))
-        .map(|vertex| clockwise(vertex, adjacency.faces_of(vertex), faces))
+        .map(|vertex| match controllable {
+            true => adjacency.faces_of(vertex).to_vec(),
+            false => clockwise(vertex, adjacency.faces_of(vertex), faces),
+        })
         .collect::<Vec<_>>();
     let white = (0..index32(vertex_count))
         .map(|vertex| Reverse((adjacency.degree(vertex), vertex)))
@@ -53,7 +56,7 @@ struct Reorder<'a, R> {
     controllable: bool,
     costs: &'a Costs,
     adjacency: Adjacency,
-    /// Faces around each vertex, clockwise from the first in the file.
+    /// Faces around each vertex: clockwise from the first in the file, or in file order.
     around: Vec<Vec<u32>>,
     /// How many faces of each vertex are not drawn.
     live: Vec<u32>,

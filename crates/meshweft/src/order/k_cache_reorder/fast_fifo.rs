@@ -67,7 +67,8 @@ struct Growth<'a> {
 
 /// The vertices in the cache from the oldest on, with some that are finished or gone.
 struct Queue {
-    entries: Vec<u32>,
+    /// Vertex and the clock at its push: a vertex may leave and enter again.
+    entries: Vec<(u32, u32)>,
     head: usize,
     tail: usize,
 }
@@ -94,7 +95,7 @@ impl<'a> Growth<'a> {
             // The entry past the last vertex is on no face, so it leaves without a trace.
             pushed: vec![index32(vertex_count); ring],
             queue: Queue {
-                entries: vec![0; 16 * ring],
+                entries: vec![(0, 0); 16 * ring],
                 head: 0,
                 tail: 0,
             },
@@ -136,20 +137,21 @@ impl<'a> Growth<'a> {
     /// The candidate of least cost, ties to the oldest; `None` if no live vertex is in the cache.
     #[inline]
     fn cheapest_candidate<const KEEP_CORNERS: bool>(&mut self) -> Option<u32> {
-        let mut oldest = [0_u32; MAX_CANDIDATES + 1];
+        let mut oldest = [(0, 0); MAX_CANDIDATES + 1];
         let mut cost = [0_i64; MAX_CANDIDATES + 1];
         let mut count = 0;
         let mut scanned = 0;
         let mut best = 0;
         let mut least = i64::MAX;
-        let (vertices, clock, size) = (&self.live.vertices[..], self.clock, self.size);
-        for &candidate in &self.queue.entries[self.queue.head..self.queue.tail] {
+        let (vertices, clock) = (&self.live.vertices[..], self.clock);
+        for &entry in &self.queue.entries[self.queue.head..self.queue.tail] {
+            let (candidate, entered) = entry;
             let vertex = &vertices[candidate as usize];
             let age = clock.wrapping_sub(vertex.entered);
             let estimate = self.costs.of(vertex.white_neighbours(), vertex.live, age);
-            oldest[count] = candidate;
+            oldest[count] = entry;
             cost[count] = estimate;
-            let is_candidate = (vertex.live != 0) & (age <= size);
+            let is_candidate = (vertex.live != 0) & (vertex.entered == entered);
             let is_better = is_candidate & (estimate < least);
             best = select_unpredictable(is_better, count, best);
             least = select_unpredictable(is_better, estimate, least);
@@ -167,7 +169,7 @@ impl<'a> Growth<'a> {
         }
         let mut confirmed = 0_u32;
         loop {
-            let focus = oldest[best];
+            let (focus, _) = oldest[best];
             if confirmed >> best & 1 != 0 || self.live.vertices[focus as usize].live > HUB {
                 return Some(focus);
             }
@@ -192,18 +194,13 @@ impl<'a> Growth<'a> {
         let (vertices, undo) = (&mut self.live.vertices[..], &mut self.run.undo);
         for &face in &self.run.faces[..self.run.len] {
             let corners = self.live.faces[face as usize];
-            let white = corners.map(|corner| {
+            let missing = corners.map(|corner| {
                 let entered = vertices[corner as usize].entered;
-                clock.wrapping_sub(entered) > size
+                u32::from(clock.wrapping_sub(entered) > size)
             });
-            if white == [false; 3] {
-                continue;
-            }
-            for (corner, white) in corners.into_iter().zip(white) {
+            for corner in Turn::new::<KEEP_CORNERS>(missing).pushes(corners) {
                 let entered = &mut vertices[corner as usize].entered;
-                // With turned corners the hits come first, so a corner that is there when the face
-                // starts is not pushed again; with kept corners it may have to be.
-                if (KEEP_CORNERS || white) && clock.wrapping_sub(*entered) > size {
+                if clock.wrapping_sub(*entered) > size {
                     undo.push((corner, *entered));
                     *entered = clock;
                     clock = clock.wrapping_add(1);
@@ -229,16 +226,13 @@ impl<'a> Growth<'a> {
         }
         let corners = self.live.faces[face as usize];
         let missing = corners.map(|corner| u32::from(self.is_white(corner)));
-        let misses = missing[0] + missing[1] + missing[2];
-        self.live.remove_corners(corners, misses);
-        let set = (missing[0] | missing[1] << 1 | missing[2] << 2) as usize;
-        let rotation = if KEEP_CORNERS { 0 } else { HITS_FIRST[set] };
-        self.rotations[self.new_to_old.len()] = rotation;
+        let turn = Turn::new::<KEEP_CORNERS>(missing);
+        self.live.remove_corners(corners, turn.misses);
+        self.rotations[self.new_to_old.len()] = turn.rotation;
         self.new_to_old.push(face);
-        // Turned corners: hits change nothing, the misses are the last ones.
-        let first = if KEEP_CORNERS { 0 } else { 3 - misses as usize };
-        for slot in first..3 {
-            let corner = corners[TURNED[rotation as usize][slot] as usize];
+        for corner in turn.pushes(corners) {
+            // A face may name a vertex twice, and with kept corners an earlier push may have evicted
+            // a corner that was there.
             if self.is_white(corner) {
                 self.push(corner);
             }
@@ -256,14 +250,16 @@ impl<'a> Growth<'a> {
         let mask = self.pushed.len() - 1;
         let leaving = self.pushed[self.clock.wrapping_sub(self.size) as usize & mask];
         self.pushed[self.clock as usize & mask] = vertex;
-        self.live.vertices[vertex as usize].entered = self.clock;
-        self.clock = self.clock.wrapping_add(1);
         if self.queue.tail == self.queue.entries.len() {
             self.close_gaps();
         }
-        self.queue.entries[self.queue.tail] = vertex;
+        self.queue.entries[self.queue.tail] = (vertex, self.clock);
         self.queue.tail += 1;
+        self.live.vertices[vertex as usize].entered = self.clock;
+        self.clock = self.clock.wrapping_add(1);
         if self.live.vertices[leaving as usize].live != 0 {
+            // Its stamp is too old by now; with none, no entry of the queue is taken for it.
+            self.live.vertices[leaving as usize].entered = 0;
             self.live.announce_unfinished_exit(leaving);
         }
         self.live.announce_entry(vertex);
@@ -275,7 +271,8 @@ impl<'a> Growth<'a> {
         let mut end = 0;
         for position in self.queue.head..self.queue.tail {
             let entry = self.queue.entries[position];
-            if self.live.vertices[entry as usize].live != 0 && !self.is_white(entry) {
+            let vertex = &self.live.vertices[entry.0 as usize];
+            if vertex.live != 0 && vertex.entered == entry.1 {
                 self.queue.entries[end] = entry;
                 end += 1;
             }
@@ -285,8 +282,44 @@ impl<'a> Growth<'a> {
     }
 }
 
+/// How a face is turned, and which of its turned corners may have to be pushed.
+struct Turn {
+    rotation: u8,
+    /// Corners that are not in the cache when the face starts.
+    misses: u32,
+    /// First turned corner to look at.
+    first: usize,
+}
+
+impl Turn {
+    /// From 1 for each corner that is not in the cache, else 0.
+    #[inline]
+    fn new<const KEEP_CORNERS: bool>(missing: [u32; 3]) -> Self {
+        let misses = missing[0] + missing[1] + missing[2];
+        if KEEP_CORNERS {
+            let (rotation, first) = (0, 0);
+            return Self {
+                rotation,
+                misses,
+                first,
+            };
+        }
+        let set = missing[0] | missing[1] << 1 | missing[2] << 2;
+        Self {
+            rotation: HITS_FIRST[set as usize & 7],
+            misses,
+            // Hits change nothing, and the misses are the last ones.
+            first: 3 - misses as usize,
+        }
+    }
+
+    #[inline]
+    fn pushes(&self, corners: [u32; 3]) -> impl Iterator<Item = u32> {
+        let [a, b, c] = corners;
+        let turned = [[a, b, c], [b, c, a], [c, a, b]][self.rotation as usize];
+        turned.into_iter().skip(self.first)
+    }
+}
+
 /// How far to turn a face so that its hits come first, by the bit set of its missing corners.
 const HITS_FIRST: [u8; 8] = [0, 1, 2, 2, 0, 1, 0, 0];
-
-/// The old corner in each new slot, by rotation.
-const TURNED: [[u8; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];

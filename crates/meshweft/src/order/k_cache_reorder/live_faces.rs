@@ -106,6 +106,19 @@ impl<'a> LiveFaces<'a> {
         count
     }
 
+    /// Shows the corners of each live face of `vertex`, unless it is a hub.
+    #[inline]
+    pub(super) fn for_each_live_face(&self, vertex: u32, mut visit: impl FnMut([u32; 3])) {
+        let row = self.row(vertex);
+        if row.len() <= HUB as usize {
+            for &face in &self.rows[row] {
+                if !self.drawn[face as usize] {
+                    visit(self.faces[face as usize]);
+                }
+            }
+        }
+    }
+
     /// Marks `face` drawn; false if it was (a face that names a vertex twice is met twice).
     #[inline]
     pub(super) fn mark_drawn(&mut self, face: u32) -> bool {

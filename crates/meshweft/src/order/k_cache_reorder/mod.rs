@@ -23,8 +23,11 @@
 //!   focus was chosen, **ties to the newest**: this detail is worth .02 and the paper's figures
 //!   tell which. Black vertices leave at once.
 //! - Ties of the focus go to the front; with no gray vertex left, the white vertex of least degree
-//!   (all its faces, drawn or not) that is first in the file. A vertex's faces are drawn clockwise
-//!   from the first in the file; a non-manifold fan in pieces.
+//!   (all its faces, drawn or not) that is first in the file.
+//! - FIFO: a vertex's faces are drawn clockwise from the first in the file, a non-manifold fan in
+//!   pieces. Controllable: in file order. The paper says clockwise, but its controllable column
+//!   agrees with file order only (mesh *eight*: printed .635, file order .640, clockwise .665), its
+//!   FIFO column with clockwise only (.633; file order .622, clockwise .630).
 //! - Step 14 (draw at once whatever else has become drawable) is left out: it changes the mean
 //!   push count by nothing and, unless each push is checked again, lets the assumed cache drift
 //!   from the real one.
@@ -40,6 +43,8 @@ mod faithful;
 mod fast_controllable;
 mod fast_fifo;
 mod live_faces;
+#[cfg(test)]
+mod oracle;
 
 use crate::cache::{CacheEvent, CacheModel, Schedule};
 use crate::mesh::Mesh;

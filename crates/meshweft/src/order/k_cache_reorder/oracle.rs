@@ -1,0 +1,169 @@
+//! The fast mode against its definition, run by brute force on manifold meshes.
+
+use super::fast_fifo::candidate_count;
+use super::{Costs, KCacheReorder};
+use crate::cache::CacheModel;
+use crate::limits::index32;
+use crate::mesh::Mesh;
+use crate::order::baselines::random;
+
+/// A FIFO cache as a list, the oldest first.
+#[derive(Clone)]
+struct Buffer {
+    size: usize,
+    held: Vec<u32>,
+    pushes: u32,
+    /// Vertices that left, with the number of the push that made them leave.
+    left: Vec<(u32, u32)>,
+}
+
+impl Buffer {
+    fn push(&mut self, vertex: u32) {
+        self.pushes += 1;
+        self.held.push(vertex);
+        if self.held.len() > self.size {
+            self.left.push((self.pushes, self.held.remove(0)));
+        }
+    }
+
+    /// Draws a face as hardware does after its corners are turned so that hits come first.
+    fn draw(&mut self, corners: [u32; 3], keep_corners: bool) -> u8 {
+        let there = corners.map(|v| self.held.contains(&v));
+        let hits_first = |&r: &usize| {
+            let turned = [0, 1, 2].map(|i| there[(i + r) % 3]);
+            turned.is_sorted_by_key(|&hit| !hit)
+        };
+        let all_same = there == [there[0]; 3];
+        let rotation = match keep_corners || all_same {
+            true => 0,
+            false => (0..3).find(hits_first).expect("two hits are neighbours"),
+        };
+        for i in 0..3 {
+            let vertex = corners[(i + rotation) % 3];
+            if !self.held.contains(&vertex) {
+                self.push(vertex);
+            }
+        }
+        u8::try_from(rotation).expect("below 3")
+    }
+}
+
+fn by_definition(mesh: &Mesh, algorithm: &KCacheReorder) -> (Vec<u32>, Vec<u8>) {
+    let size = algorithm.cache.size();
+    let costs = Costs::new(algorithm.k1, algorithm.k2, algorithm.k3, size);
+    let faces = mesh.faces();
+    let mut drawn = vec![false; faces.len()];
+    let mut buffer = Buffer {
+        size: size as usize,
+        held: Vec::new(),
+        pushes: 0,
+        left: Vec::new(),
+    };
+    let (mut order, mut rotations) = (Vec::new(), Vec::new());
+    let mut next = algorithm.first_focus;
+    loop {
+        let live_faces = |v: u32| -> Vec<usize> {
+            let all = 0..faces.len();
+            all.filter(|&f| !drawn[f] && faces[f].contains(&v))
+                .collect()
+        };
+        let live = |v: u32| index32(live_faces(v).len());
+        let cost = |v: u32| {
+            let mut run = buffer.clone();
+            for face in live_faces(v) {
+                run.draw(faces[face], algorithm.keep_corners);
+            }
+            // The age may pass the size: count it from the last push of `v`.
+            let after = run.held.iter().rev().position(|&h| h == v);
+            let left = run.left.iter().rev().find(|l| l.1 == v);
+            let age = match (after, left) {
+                (Some(after), _) => index32(after) + 1,
+                (None, Some(left)) => run.pushes - left.0 + size + 1,
+                (None, None) => unreachable!("a candidate is in the cache"),
+            };
+            costs.after_run(run.pushes - buffer.pushes, live(v), age)
+        };
+        let candidates = buffer.held.iter().copied().filter(|&v| live(v) > 0);
+        let candidates = candidates.take(candidate_count(size));
+        let cheapest = candidates.min_by_key(|&v| cost(v));
+        let unfinished = buffer.left.iter().rev().filter(|l| live(l.1) > 0);
+        let stranded = unfinished.min_by_key(|l| live(l.1).min(8)).map(|l| l.1);
+        let untouched = (0..index32(mesh.vertex_count())).find(|&v| live(v) > 0);
+        let focus = next.take().or(cheapest).or(stranded).or(untouched);
+        let Some(focus) = focus else {
+            return (order, rotations);
+        };
+        for face in live_faces(focus) {
+            drawn[face] = true;
+            order.push(index32(face));
+            rotations.push(buffer.draw(faces[face], algorithm.keep_corners));
+        }
+    }
+}
+
+/// A grid of quads with random diagonals, closed to a torus or open, all numbers shuffled.
+fn grid(width: u32, height: u32, closed: bool, seed: u64) -> Mesh {
+    let quads = if closed {
+        (width, height)
+    } else {
+        (width - 1, height - 1)
+    };
+    let vertices = random((width * height) as usize, seed);
+    let diagonals = random((width * height) as usize, seed + 1);
+    let vertex =
+        |x: u32, y: u32| vertices.new_to_old()[((y % height) * width + x % width) as usize];
+    let mut faces = Vec::new();
+    for y in 0..quads.1 {
+        for x in 0..quads.0 {
+            let [a, b] = [vertex(x, y), vertex(x + 1, y)];
+            let [c, d] = [vertex(x, y + 1), vertex(x + 1, y + 1)];
+            match diagonals.new_to_old()[(y * width + x) as usize] % 2 {
+                0 => faces.extend([[a, b, c], [c, b, d]]),
+                _ => faces.extend([[a, b, d], [a, d, c]]),
+            }
+        }
+    }
+    let faces = random(faces.len(), seed + 2).apply(&faces);
+    Mesh::connectivity_only((width * height) as usize, faces).unwrap()
+}
+
+#[test]
+fn the_fast_mode_is_the_greedy_that_it_claims_to_be() {
+    for (round, size) in [3, 4, 5, 7, 10, 12, 16, 24, 32, 64].into_iter().enumerate() {
+        for closed in [false, true] {
+            for keep_corners in [false, true] {
+                let mesh = grid(9, 8, closed, round as u64);
+                let algorithm = KCacheReorder {
+                    cache: CacheModel::fifo(size),
+                    keep_corners,
+                    ..Default::default()
+                };
+                let order = algorithm.face_order(&mesh);
+                let (faces, rotations) = by_definition(&mesh, &algorithm);
+                assert_eq!(order.new_to_old(), faces, "{algorithm:?}, closed: {closed}");
+                assert_eq!(order.rotations(), rotations, "{algorithm:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn weights_and_first_focus_are_obeyed() {
+    for (seed, (k1, k2, k3)) in [(1.0, 0.0, 0.0), (2.0, 0.7, 0.3), (0.7, 1.5, 1.3)]
+        .into_iter()
+        .enumerate()
+    {
+        let mesh = grid(8, 8, true, seed as u64);
+        let algorithm = KCacheReorder {
+            cache: CacheModel::fifo(8),
+            first_focus: Some(17),
+            k1,
+            k2,
+            k3,
+            ..Default::default()
+        };
+        let order = algorithm.face_order(&mesh);
+        assert_eq!(order.new_to_old(), by_definition(&mesh, &algorithm).0);
+        assert!(mesh.faces()[order.new_to_old()[0] as usize].contains(&17));
+    }
+}
