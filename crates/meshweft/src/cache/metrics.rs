@@ -168,16 +168,16 @@ pub fn misses_per_face(faces: &[[u32; 3]], model: CacheModel) -> Vec<u8> {
 #[must_use]
 pub fn overfetch(faces: &[[u32; 3]], vertex_size: usize) -> f64 {
     const LINE: u64 = 64;
-    const LINES: u64 = 128 * 1024 / LINE;
+    const LINES: usize = 2048;
     assert!(vertex_size > 0, "a vertex record has at least one byte");
-    let mut cached = [0_u64; LINES as usize];
+    let mut cached = [0_u64; LINES];
     let mut fetched = 0;
     let size = vertex_size as u64;
     for &vertex in faces.iter().flatten() {
         let start = u64::from(vertex) * size;
         for line in start / LINE..(start + size).div_ceil(LINE) {
             // Lines are stored plus one: zero is "nothing yet".
-            let slot = &mut cached[usize::try_from(line % LINES).unwrap_or(0)];
+            let slot = &mut cached[usize::try_from(line % LINES as u64).unwrap_or(0)];
             if *slot != line + 1 {
                 *slot = line + 1;
                 fetched += LINE;
