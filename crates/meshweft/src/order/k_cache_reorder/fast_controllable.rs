@@ -6,14 +6,20 @@
 //! Who has to make room is the vertex that will be needed last, as far as costs can tell: a vertex
 //! is needed when the first of the vertices that it still shares a face with, itself included,
 //! becomes the focus. So the least of their costs is compared, then its own, and ties go to the
-//! oldest. (The paper compares own costs alone; that is .015 worse on scanned meshes at K = 12.)
+//! oldest. Both choices look at the oldest vertices only, which bounds a step whatever the size.
+//! (The paper compares own costs alone; that is .015 worse on scanned meshes at K = 12.)
 
 use std::hint::select_unpredictable;
 
 use super::costs::Costs;
 use super::live_faces::LiveFaces;
+use super::queue::Queue;
 use crate::cache::CacheEvent;
 use crate::permutation::{FaceOrder, Permutation};
+
+/// How many of the oldest vertices are looked at. More are no better: on four scanned and CAD meshes
+/// the mean at K = 128 is .517 with 64 and .521 with all.
+const CANDIDATES: usize = 64;
 
 /// Draws all faces; `record` receives each step of the schedule.
 pub(super) fn face_order(
@@ -28,10 +34,9 @@ pub(super) fn face_order(
         live: LiveFaces::new(faces, vertex_count),
         costs,
         size: size as usize,
-        buffer: Vec::with_capacity(2 * size as usize),
+        queue: Queue::new(size),
         held: 0,
         pushes: 0,
-        settled: 0,
         record,
         new_to_old: Vec::with_capacity(faces.len()),
     };
@@ -43,14 +48,11 @@ struct Growth<'a, R> {
     live: LiveFaces<'a>,
     costs: &'a Costs,
     size: usize,
-    /// The vertices in the cache and the number of their push, from the oldest on; with some that
-    /// have left since the focus was chosen.
-    buffer: Vec<(u32, u32)>,
+    /// The vertices in the cache and the numbers of their pushes.
+    queue: Queue,
     /// How many vertices are in the cache.
     held: usize,
     pushes: u32,
-    /// Number of the last push before the focus was chosen.
-    settled: u32,
     record: R,
     new_to_old: Vec<u32>,
 }
@@ -75,17 +77,24 @@ impl<R: FnMut(CacheEvent)> Growth<'_, R> {
 
     /// The vertex of least cost in the cache, ties to the oldest.
     fn cheapest_candidate(&mut self) -> Option<u32> {
-        let vertices = &self.live.vertices;
-        let is_held = |&(v, push): &(u32, u32)| vertices[v as usize].entered == push;
-        self.buffer.retain(is_held);
-        self.settled = self.pushes;
-        let mut best = None;
-        let mut least = i64::MAX;
-        for &(candidate, _) in &self.buffer {
+        let mut oldest = [(0, 0); CANDIDATES];
+        let (mut count, mut scanned) = (0, 0);
+        let (mut best, mut least) = (None, i64::MAX);
+        for &(candidate, push) in self.queue.entries() {
+            scanned += 1;
+            if self.live.vertices[candidate as usize].entered != push {
+                continue;
+            }
             let cost = self.cost(candidate);
             best = select_unpredictable(cost < least, Some(candidate), best);
             least = select_unpredictable(cost < least, cost, least);
+            oldest[count] = (candidate, push);
+            count += 1;
+            if count == CANDIDATES {
+                break;
+            }
         }
+        self.queue.replace_front(scanned, &oldest[..count]);
         best
     }
 
@@ -144,28 +153,25 @@ impl<R: FnMut(CacheEvent)> Growth<'_, R> {
         self.pushes = self.pushes.wrapping_add(1).max(1);
         self.live.vertices[vertex as usize].entered = self.pushes;
         self.held += 1;
-        self.buffer.push((vertex, self.pushes));
+        let vertices = &self.live.vertices;
+        self.queue.push((vertex, self.pushes), |(vertex, push)| {
+            vertices[vertex as usize].entered == push
+        });
         self.live.announce_entry(vertex);
         (self.record)(CacheEvent::Push(vertex));
     }
 
-    /// Makes room: the vertex that is needed last leaves, ties to the oldest, no corner of the face
-    /// being drawn; one that entered since the focus was chosen only if there is no other.
+    /// Makes room: the vertex that is needed last leaves, ties to the oldest, but no corner of the
+    /// face being drawn.
     fn pop_needed_last(&mut self, corners: [u32; 3]) {
-        let mut last = None;
-        for &(entry, push) in &self.buffer {
-            let is_held = self.live.vertices[entry as usize].entered == push;
-            if !is_held || corners.contains(&entry) {
-                continue;
-            }
-            if push > self.settled {
-                // All from here on entered since: the first will do if no other was found.
-                last = last.or(Some((entry, (0, 0))));
-                break;
-            }
-            let need = self.need(entry);
+        let vertices = &self.live.vertices;
+        let is_held = |&&(v, push): &&(u32, u32)| vertices[v as usize].entered == push;
+        let held = self.queue.entries().iter().filter(is_held).map(|e| e.0);
+        let mut last: Option<(u32, (i64, i64))> = None;
+        for vertex in held.filter(|v| !corners.contains(v)).take(CANDIDATES) {
+            let need = self.need(vertex);
             if last.is_none_or(|(_, most)| need > most) {
-                last = Some((entry, need));
+                last = Some((vertex, need));
             }
         }
         let (leaving, _) = last.expect("a full cache holds more than the other two corners");

@@ -15,6 +15,7 @@ use std::hint::select_unpredictable;
 
 use super::costs::Costs;
 use super::live_faces::{HUB, LiveFaces};
+use super::queue::Queue;
 use crate::limits::index32;
 use crate::permutation::{FaceOrder, Permutation};
 
@@ -65,14 +66,6 @@ struct Growth<'a> {
     rotations: Vec<u8>,
 }
 
-/// The vertices in the cache from the oldest on, with some that are finished or gone.
-struct Queue {
-    /// Vertex and the clock at its push: a vertex may leave and enter again.
-    entries: Vec<(u32, u32)>,
-    head: usize,
-    tail: usize,
-}
-
 /// The live faces of one vertex, and what a tentative run over them overwrote.
 struct Run {
     vertex: Option<u32>,
@@ -94,11 +87,7 @@ impl<'a> Growth<'a> {
             clock: size + 1,
             // The entry past the last vertex is on no face, so it leaves without a trace.
             pushed: vec![index32(vertex_count); ring],
-            queue: Queue {
-                entries: vec![(0, 0); 16 * ring],
-                head: 0,
-                tail: 0,
-            },
+            queue: Queue::new(size),
             run: Run {
                 vertex: None,
                 faces: vec![0; HUB as usize],
@@ -144,7 +133,7 @@ impl<'a> Growth<'a> {
         let mut best = 0;
         let mut least = i64::MAX;
         let (vertices, clock) = (&self.live.vertices[..], self.clock);
-        for &entry in &self.queue.entries[self.queue.head..self.queue.tail] {
+        for &entry in self.queue.entries() {
             let (candidate, entered) = entry;
             let vertex = &vertices[candidate as usize];
             let age = clock.wrapping_sub(vertex.entered);
@@ -161,9 +150,7 @@ impl<'a> Growth<'a> {
                 break;
             }
         }
-        // Close the gaps that black vertices left, so that they are passed over only once.
-        self.queue.head += scanned - count;
-        self.queue.entries[self.queue.head..][..count].copy_from_slice(&oldest[..count]);
+        self.queue.replace_front(scanned, &oldest[..count]);
         if count == 0 {
             return None;
         }
@@ -250,11 +237,11 @@ impl<'a> Growth<'a> {
         let mask = self.pushed.len() - 1;
         let leaving = self.pushed[self.clock.wrapping_sub(self.size) as usize & mask];
         self.pushed[self.clock as usize & mask] = vertex;
-        if self.queue.tail == self.queue.entries.len() {
-            self.close_gaps();
-        }
-        self.queue.entries[self.queue.tail] = (vertex, self.clock);
-        self.queue.tail += 1;
+        let vertices = &self.live.vertices;
+        self.queue.push((vertex, self.clock), |(vertex, entered)| {
+            let vertex = &vertices[vertex as usize];
+            vertex.live != 0 && vertex.entered == entered
+        });
         self.live.vertices[vertex as usize].entered = self.clock;
         self.clock = self.clock.wrapping_add(1);
         if self.live.vertices[leaving as usize].live != 0 {
@@ -263,22 +250,6 @@ impl<'a> Growth<'a> {
             self.live.announce_unfinished_exit(leaving);
         }
         self.live.announce_entry(vertex);
-    }
-
-    /// Moves what is still a candidate, at most one cache full, to the front of the queue.
-    #[cold]
-    fn close_gaps(&mut self) {
-        let mut end = 0;
-        for position in self.queue.head..self.queue.tail {
-            let entry = self.queue.entries[position];
-            let vertex = &self.live.vertices[entry.0 as usize];
-            if vertex.live != 0 && vertex.entered == entry.1 {
-                self.queue.entries[end] = entry;
-                end += 1;
-            }
-        }
-        self.queue.head = 0;
-        self.queue.tail = end;
     }
 }
 

@@ -35,8 +35,8 @@
 //! [`Mode::Fast`] departs from it where that is faster or better: only the oldest few live vertices
 //! are candidates; corners are turned so that hits come first, which makes the pushes it counts
 //! equal to a hardware replay; dead ends go to the vertex with the fewest *remaining* faces; in a
-//! controllable cache costs are kept from the choice of the focus and ties go to the *oldest*.
-//! Read `fast_fifo` for how it avoids running every candidate.
+//! controllable cache the vertex that leaves is the one that is needed last, see
+//! `fast_controllable`. Read `fast_fifo` for how it avoids running every candidate.
 
 mod costs;
 mod faithful;
@@ -45,6 +45,7 @@ mod fast_fifo;
 mod live_faces;
 #[cfg(test)]
 mod oracle;
+mod queue;
 
 use crate::cache::{CacheEvent, CacheModel, Schedule};
 use crate::mesh::Mesh;
@@ -122,8 +123,8 @@ impl KCacheReorder {
     /// If [`cache`](Self::cache) is neither FIFO nor controllable, or `first_focus` names no vertex.
     ///
     /// # Complexity
-    /// Fast: time O(vertices + faces) for any cache of 64 entries or fewer; a larger controllable
-    /// cache adds its size for each vertex. Space 16 bytes a vertex and 13 a face beside the result.
+    /// Fast: time O(vertices + faces) for any cache size; space 16 bytes a vertex and 13 a face
+    /// beside the result.
     /// Faithful: time O(K · (vertices + faces)) tentative runs.
     #[must_use]
     pub fn face_order(&self, mesh: &Mesh) -> FaceOrder {

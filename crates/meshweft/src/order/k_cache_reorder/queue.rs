@@ -1,0 +1,61 @@
+//! The vertices in the cache by age, tidied up while they are looked at.
+
+/// A vertex and the clock at its push: a vertex may leave and enter again.
+pub(super) type Entry = (u32, u32);
+
+/// The vertices in the cache, oldest first, among some that are finished or gone.
+pub(super) struct Queue {
+    entries: Vec<Entry>,
+    head: usize,
+    tail: usize,
+}
+
+impl Queue {
+    /// An empty queue for at most `size` vertices that count.
+    pub(super) fn new(size: u32) -> Self {
+        Self {
+            // The larger, the rarer the clean-up when the end is reached.
+            entries: vec![(0, 0); 16 * (size as usize + 1)],
+            head: 0,
+            tail: 0,
+        }
+    }
+
+    /// All entries, oldest first.
+    #[inline]
+    pub(super) fn entries(&self) -> &[Entry] {
+        &self.entries[self.head..self.tail]
+    }
+
+    /// Puts an entry behind; `counts` says which of the others still count.
+    #[inline]
+    pub(super) fn push(&mut self, entry: Entry, counts: impl Fn(Entry) -> bool) {
+        if self.tail == self.entries.len() {
+            self.close_gaps(counts);
+        }
+        self.entries[self.tail] = entry;
+        self.tail += 1;
+    }
+
+    /// Puts `kept` in the place of the first `scanned` entries, of which they are those that count:
+    /// the others are passed over only once.
+    #[inline]
+    pub(super) fn replace_front(&mut self, scanned: usize, kept: &[Entry]) {
+        self.head += scanned - kept.len();
+        self.entries[self.head..][..kept.len()].copy_from_slice(kept);
+    }
+
+    #[cold]
+    fn close_gaps(&mut self, counts: impl Fn(Entry) -> bool) {
+        let mut end = 0;
+        for position in self.head..self.tail {
+            let entry = self.entries[position];
+            if counts(entry) {
+                self.entries[end] = entry;
+                end += 1;
+            }
+        }
+        self.head = 0;
+        self.tail = end;
+    }
+}
