@@ -22,6 +22,11 @@ use crate::permutation::{FaceOrder, Permutation};
 /// Most candidates looked at; see [`candidate_count`].
 const MAX_CANDIDATES: usize = 16;
 
+/// Most candidates that are run tentatively in a step; then the cheapest of these is taken. On a
+/// surface the first or second is the one; on a soup of faces, where the estimate is poor, this
+/// bounds the work.
+pub(super) const MAX_RUNS: u32 = 4;
+
 /// How many of the oldest live vertices in the cache are candidates for the focus.
 ///
 /// On eight scanned and CAD meshes, in file order and shuffled, more candidates change the mean
@@ -126,6 +131,9 @@ impl<'a> Growth<'a> {
     /// The candidate of least cost, ties to the oldest; `None` if no live vertex is in the cache.
     #[inline]
     fn cheapest_candidate<const KEEP_CORNERS: bool>(&mut self) -> Option<u32> {
+        if self.queue.entries().is_empty() {
+            return None;
+        }
         let mut oldest = [(0, 0); MAX_CANDIDATES + 1];
         let mut cost = [0_i64; MAX_CANDIDATES + 1];
         let mut count = 0;
@@ -166,10 +174,9 @@ impl<'a> Growth<'a> {
             }
             cost[best] = exact;
             confirmed |= 1 << best;
-            best = 0;
-            for i in 1..count {
-                best = if cost[i] < cost[best] { i } else { best };
-            }
+            let last_run = confirmed.count_ones() == MAX_RUNS;
+            let rank = |i: usize| (last_run && confirmed >> i & 1 == 0, cost[i]);
+            best = (0..count).min_by_key(|&i| rank(i)).unwrap_or(0);
         }
     }
 
@@ -237,18 +244,23 @@ impl<'a> Growth<'a> {
         let mask = self.pushed.len() - 1;
         let leaving = self.pushed[self.clock.wrapping_sub(self.size) as usize & mask];
         self.pushed[self.clock as usize & mask] = vertex;
-        let vertices = &self.live.vertices;
-        self.queue.push((vertex, self.clock), |(vertex, entered)| {
-            let vertex = &vertices[vertex as usize];
-            vertex.live != 0 && vertex.entered == entered
-        });
-        self.live.vertices[vertex as usize].entered = self.clock;
+        let entered = self.clock;
+        self.live.vertices[vertex as usize].entered = entered;
         self.clock = self.clock.wrapping_add(1);
         if self.live.vertices[leaving as usize].live != 0 {
             // Its stamp is too old by now; with none, no entry of the queue is taken for it.
             self.live.vertices[leaving as usize].entered = 0;
             self.live.announce_unfinished_exit(leaving);
         }
+        if self.live.vertices[vertex as usize].live == 0 {
+            // Pushed by its last face: black already, and no live face is there to tell.
+            return;
+        }
+        let vertices = &self.live.vertices;
+        self.queue.push((vertex, entered), |(vertex, entered)| {
+            let vertex = &vertices[vertex as usize];
+            vertex.live != 0 && vertex.entered == entered
+        });
         self.live.announce_entry(vertex);
     }
 }

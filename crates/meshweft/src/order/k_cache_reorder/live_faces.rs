@@ -44,6 +44,8 @@ pub(super) struct LiveFaces<'a> {
     drawn: Vec<bool>,
     /// Vertices that left the cache unfinished, by live count.
     dead_ends: [Vec<u32>; STACKS],
+    /// Whether any of these stacks may hold something.
+    stranded: bool,
     /// No vertex before this one is untouched.
     untouched: u32,
 }
@@ -78,6 +80,7 @@ impl<'a> LiveFaces<'a> {
             rows,
             drawn: vec![false; faces.len()],
             dead_ends: Default::default(),
+            stranded: false,
             untouched: 0,
         }
     }
@@ -153,6 +156,7 @@ impl<'a> LiveFaces<'a> {
             stack.retain(|&v| stack_of(vertices[v as usize].live) == slot);
         }
         stack.push(vertex);
+        self.stranded = true;
     }
 
     /// Adds `change` to the white corners of all corners of the live faces of a vertex that is no
@@ -177,12 +181,15 @@ impl<'a> LiveFaces<'a> {
     /// among those that left it unfinished, the last to leave first; else the first untouched one
     /// in file order; `None` if all faces are drawn.
     pub(super) fn after_dead_end(&mut self) -> Option<u32> {
-        for (slot, stack) in self.dead_ends.iter_mut().enumerate() {
-            while let Some(vertex) = stack.pop() {
-                if stack_of(self.vertices[vertex as usize].live) == slot {
-                    return Some(vertex);
+        if self.stranded {
+            for (slot, stack) in self.dead_ends.iter_mut().enumerate() {
+                while let Some(vertex) = stack.pop() {
+                    if stack_of(self.vertices[vertex as usize].live) == slot {
+                        return Some(vertex);
+                    }
                 }
             }
+            self.stranded = false;
         }
         let rest = &self.vertices[self.untouched as usize..];
         self.untouched += index32(rest.iter().position(|v| v.live != 0)?);
