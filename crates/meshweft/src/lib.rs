@@ -30,6 +30,8 @@
 pub mod adjacency;
 pub mod cache;
 mod error;
+#[cfg(feature = "files")]
+pub mod files;
 mod limits;
 mod mesh;
 pub mod order;

@@ -1,0 +1,237 @@
+//! A mesh as a file holds it: records that can be moved, and the walls they cannot cross.
+
+use crate::Mesh;
+use crate::limits::index32;
+use crate::permutation::{FaceOrder, Permutation, VertexOrder};
+
+/// One re-orderable mesh of a file.
+///
+/// A *face record* is what the file stores for one face: three indices, a line of text, a polygon
+/// with its attributes. Orders that are applied to a file are orders of records.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct MeshEntry {
+    /// What the file calls it, or a description of where it stands.
+    pub name: String,
+    /// Its connectivity, polygons cut into fans in record order. Positions may be missing.
+    pub mesh: Mesh,
+    /// Where each polygon's faces start in `mesh` (one more entry than records), or `None` where
+    /// each record is one triangle.
+    pub polygons: Option<Vec<u32>>,
+    /// Records at which a new run starts (material, group, …), rising, the first 0. A record stays
+    /// within its run. Empty if there are no records.
+    pub runs: Vec<u32>,
+    /// Meshes with the same number share their vertices: a vertex order for one renumbers all.
+    pub vertex_group: usize,
+    /// Whether the vertices may be moved.
+    pub vertices_movable: bool,
+    /// Whether a record's corners may be turned.
+    pub corners_turnable: bool,
+}
+
+impl MeshEntry {
+    /// How many face records the mesh has.
+    #[must_use]
+    pub fn record_count(&self) -> usize {
+        match &self.polygons {
+            Some(starts) => starts.len().saturating_sub(1),
+            None => self.mesh.face_count(),
+        }
+    }
+
+    /// The faces of `record` in [`mesh`](Self::mesh), as a range.
+    fn faces_of(&self, record: usize) -> std::ops::Range<usize> {
+        match &self.polygons {
+            Some(starts) => starts[record] as usize..starts[record + 1] as usize,
+            None => record..record + 1,
+        }
+    }
+
+    /// An order of the records, made by ordering each run on its own with `face_order`.
+    ///
+    /// `face_order` sees one run as a mesh of triangles over the vertices it uses. Polygons follow
+    /// their first triangle and are never turned; triangles are turned only if the file allows it.
+    ///
+    /// # Complexity
+    /// That of `face_order` on each run, plus O(faces + vertices).
+    pub fn record_order(&self, mut face_order: impl FnMut(&Mesh) -> FaceOrder) -> FaceOrder {
+        let record_count = self.record_count();
+        let turn = self.corners_turnable && self.polygons.is_none();
+        if self.runs.len() <= 1 && self.polygons.is_none() {
+            let order = face_order(&self.mesh);
+            return match turn {
+                true => order,
+                false => order.permutation().clone().into(),
+            };
+        }
+        let mut new_to_old = Vec::with_capacity(record_count);
+        let mut rotations = Vec::new();
+        let mut local_of = vec![u32::MAX; self.mesh.vertex_count()];
+        let ends = self.runs.iter().skip(1).map(|&start| start as usize);
+        let ends = ends.chain([record_count]);
+        for (&start, end) in self.runs.iter().zip(ends) {
+            let start = start as usize;
+            self.order_run(
+                start..end,
+                &mut local_of,
+                &mut face_order,
+                |record, rotation| {
+                    new_to_old.push(record);
+                    rotations.push(rotation);
+                },
+            );
+        }
+        if !turn || rotations.iter().all(|&r| r == 0) {
+            rotations.clear();
+        }
+        let permutation = Permutation::from_algorithm(new_to_old);
+        FaceOrder::new(permutation, rotations).expect("one rotation below 3 a record")
+    }
+
+    fn order_run(
+        &self,
+        run: std::ops::Range<usize>,
+        local_of: &mut [u32],
+        face_order: &mut impl FnMut(&Mesh) -> FaceOrder,
+        mut emit: impl FnMut(u32, u8),
+    ) {
+        let mut global_of = Vec::new();
+        let mut faces = Vec::new();
+        let mut record_of = Vec::new();
+        for record in run.clone() {
+            for face in self.faces_of(record) {
+                record_of.push(index32(record));
+                faces.push(self.mesh.faces()[face].map(|vertex| {
+                    let local = &mut local_of[vertex as usize];
+                    if *local == u32::MAX {
+                        *local = index32(global_of.len());
+                        global_of.push(vertex);
+                    }
+                    *local
+                }));
+            }
+        }
+        let mesh = Mesh::connectivity_only(global_of.len(), faces).expect("indices are local");
+        let order = face_order(&mesh);
+        // A polygon goes where the first of its triangles went; one with no triangle (a point, a
+        // line) stays behind the others.
+        let mut placed = vec![false; run.len()];
+        for (new, &old) in order.new_to_old().iter().enumerate() {
+            let record = record_of[old as usize];
+            let seen = &mut placed[record as usize - run.start];
+            if !std::mem::replace(seen, true) {
+                emit(record, order.rotation(new));
+            }
+        }
+        for (record, placed) in run.zip(placed) {
+            if !placed {
+                emit(index32(record), 0);
+            }
+        }
+        for vertex in global_of {
+            local_of[vertex as usize] = u32::MAX;
+        }
+    }
+
+    /// Whether `order` keeps each record within its run.
+    pub(crate) fn keeps_runs(&self, order: &FaceOrder) -> bool {
+        let run_of = |record: u32| self.runs.partition_point(|&start| start <= record);
+        (0_u32..)
+            .zip(order.new_to_old())
+            .all(|(new, &old)| run_of(new) == run_of(old))
+    }
+
+    /// Moves the records of this entry as the file's were moved.
+    pub(crate) fn apply_faces(&mut self, order: &FaceOrder) {
+        let Some(starts) = &self.polygons else {
+            self.mesh = self.mesh.with_face_order(order);
+            return;
+        };
+        let mut faces = Vec::with_capacity(self.mesh.face_count());
+        let mut new_starts = vec![0];
+        for &old in order.new_to_old() {
+            let old = old as usize;
+            let span = starts[old] as usize..starts[old + 1] as usize;
+            faces.extend_from_slice(&self.mesh.faces()[span]);
+            new_starts.push(index32(faces.len()));
+        }
+        self.polygons = Some(new_starts);
+        self.replace_faces(faces);
+    }
+
+    /// Renumbers the vertices of this entry as the file's were moved.
+    pub(crate) fn apply_vertices(&mut self, order: &VertexOrder) {
+        self.mesh = self.mesh.with_vertex_order(order);
+    }
+
+    fn replace_faces(&mut self, faces: Vec<[u32; 3]>) {
+        let old = std::mem::take(&mut self.mesh);
+        let (positions, vertex_count) = (old.positions().to_vec(), old.vertex_count());
+        self.mesh = match positions.is_empty() {
+            true => Mesh::connectivity_only(vertex_count, faces),
+            false => Mesh::new(positions, faces),
+        }
+        .expect("the same indices in another order");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reversed(mesh: &Mesh) -> FaceOrder {
+        let last_first = (0..index32(mesh.face_count())).rev().collect();
+        let rotations = vec![1; mesh.face_count()];
+        FaceOrder::new(Permutation::from_algorithm(last_first), rotations).unwrap()
+    }
+
+    fn entry(faces: Vec<[u32; 3]>, polygons: Option<Vec<u32>>, runs: Vec<u32>) -> MeshEntry {
+        MeshEntry {
+            name: "test".into(),
+            mesh: Mesh::connectivity_only(9, faces).unwrap(),
+            polygons,
+            runs,
+            vertex_group: 0,
+            vertices_movable: true,
+            corners_turnable: true,
+        }
+    }
+
+    #[test]
+    fn records_stay_within_their_run() {
+        let faces = vec![[0, 1, 2], [3, 4, 5], [6, 7, 8], [6, 7, 0]];
+        let entry = entry(faces, None, vec![0, 1]);
+        let order = entry.record_order(reversed);
+        assert_eq!(order.new_to_old(), [0, 3, 2, 1]);
+        assert_eq!(order.rotations(), [1; 4]);
+        assert!(entry.keeps_runs(&order));
+        assert!(!entry.keeps_runs(&reversed(&entry.mesh)));
+    }
+
+    #[test]
+    fn polygons_stay_whole_and_unturned() {
+        // A quad, a line (no triangle), a triangle.
+        let faces = vec![[0, 1, 2], [0, 2, 3], [4, 5, 6]];
+        let mut entry = entry(faces, Some(vec![0, 2, 2, 3]), vec![0]);
+        let order = entry.record_order(reversed);
+        assert_eq!(order.new_to_old(), [2, 0, 1]);
+        assert!(order.rotations().is_empty());
+        entry.apply_faces(&order);
+        assert_eq!(entry.mesh.faces(), [[4, 5, 6], [0, 1, 2], [0, 2, 3]]);
+        assert_eq!(entry.polygons, Some(vec![0, 1, 3, 3]));
+    }
+
+    #[test]
+    fn corners_are_turned_only_where_the_file_allows() {
+        let mut entry = entry(vec![[0, 1, 2], [3, 4, 5]], None, vec![0]);
+        assert_eq!(entry.record_order(reversed).rotations(), [1, 1]);
+        entry.corners_turnable = false;
+        assert!(entry.record_order(reversed).rotations().is_empty());
+    }
+
+    #[test]
+    fn no_records_are_ordered() {
+        let entry = entry(vec![], None, vec![]);
+        assert_eq!(entry.record_order(reversed).len(), 0);
+    }
+}

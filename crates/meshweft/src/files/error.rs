@@ -1,0 +1,158 @@
+//! What is wrong with a file, where, and what to do about it.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use super::Format;
+
+/// Why a file could not be read, changed or written.
+#[derive(Debug)]
+pub struct FileError {
+    /// The file.
+    pub path: PathBuf,
+    /// Its format, where that was known.
+    pub format: Option<Format>,
+    /// Where in the file.
+    pub place: Place,
+    /// What is wrong.
+    pub kind: FileErrorKind,
+}
+
+/// Where in a file something was found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Place {
+    /// Nowhere in particular.
+    File,
+    /// A line of text, from 1.
+    Line(usize),
+    /// A byte offset, from 0.
+    Byte(usize),
+    /// A JSON pointer (RFC 6901), such as `/meshes/3/primitives/0`.
+    Json(String),
+}
+
+/// What is wrong with a file.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum FileErrorKind {
+    /// The operating system refused.
+    Io(std::io::Error),
+    /// Neither the name nor the first bytes belong to a format that is read.
+    UnknownFormat,
+    /// The file ends inside what it promised.
+    Truncated {
+        /// What was being read.
+        what: String,
+    },
+    /// The bytes are not what the format asks for.
+    Malformed {
+        /// What was found and what was expected.
+        problem: String,
+    },
+    /// A count or size above the [`Limits`](crate::Limits).
+    OverLimit {
+        /// What there is too much of.
+        what: &'static str,
+        /// How much there is.
+        found: u64,
+        /// How much is accepted.
+        limit: u64,
+    },
+    /// The file is sound but uses what is not supported.
+    Unsupported {
+        /// What it uses, and what to do about it.
+        feature: String,
+    },
+    /// An order that the file's meshes cannot take.
+    Order(crate::MeshError),
+}
+
+impl FileErrorKind {
+    /// [`Malformed`](Self::Malformed) with this text.
+    pub(crate) fn malformed(problem: impl Into<String>) -> Self {
+        Self::Malformed {
+            problem: problem.into(),
+        }
+    }
+
+    /// [`Truncated`](Self::Truncated) while reading this.
+    pub(crate) fn truncated(what: impl Into<String>) -> Self {
+        Self::Truncated { what: what.into() }
+    }
+
+    /// [`Unsupported`](Self::Unsupported) with this text.
+    pub(crate) fn unsupported(feature: impl Into<String>) -> Self {
+        Self::Unsupported {
+            feature: feature.into(),
+        }
+    }
+
+    /// This problem at a place, in a file whose name the caller adds.
+    pub(crate) fn at(self, place: Place) -> Problem {
+        Problem { place, kind: self }
+    }
+}
+
+/// A problem found by a reader, which sees bytes and not paths.
+#[derive(Debug)]
+pub(crate) struct Problem {
+    pub(crate) place: Place,
+    pub(crate) kind: FileErrorKind,
+}
+
+impl Problem {
+    pub(crate) fn in_file(self, path: &Path, format: Option<Format>) -> FileError {
+        FileError {
+            path: path.to_owned(),
+            format,
+            place: self.place,
+            kind: self.kind,
+        }
+    }
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: ", self.path.display())?;
+        match &self.place {
+            Place::File => {}
+            Place::Line(line) => write!(f, "line {line}: ")?,
+            Place::Byte(byte) => write!(f, "byte {byte}: ")?,
+            Place::Json(pointer) => write!(f, "{pointer}: ")?,
+        }
+        write!(f, "{}", self.kind)
+    }
+}
+
+impl fmt::Display for FileErrorKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io(error) => write!(f, "{error}"),
+            Self::UnknownFormat => f.write_str(
+                "unknown format: files that end in .gltf, .glb, .obj, .ply or .off are read \
+                 (also with .gz behind)",
+            ),
+            Self::Truncated { what } => write!(
+                f,
+                "the file ends inside {what}. Fetch or export it again: it is incomplete"
+            ),
+            Self::Malformed { problem } => f.write_str(problem),
+            Self::OverLimit { what, found, limit } => {
+                write!(f, "{found} {what}: more than the limit of {limit}")
+            }
+            Self::Unsupported { feature } => f.write_str(feature),
+            Self::Order(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for FileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match &self.kind {
+            FileErrorKind::Io(error) => Some(error),
+            FileErrorKind::Order(error) => Some(error),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,303 @@
+//! Accessors and buffer views as records of fixed size in a storage, every bound checked.
+
+use serde_json::Value;
+
+use super::buffers::{Buffers, Source};
+use super::json::{Object, malformed, whole};
+use super::records::Records;
+use crate::files::error::Problem;
+
+/// An accessor, its bounds checked.
+#[derive(Debug, Clone)]
+pub(super) struct Accessor {
+    /// The pointer to it.
+    pub(super) pointer: String,
+    /// The bytes of one element.
+    pub(super) size: usize,
+    /// Its records; `None` where it has none and stands for zeros.
+    pub(super) records: Option<Records>,
+    pub(super) component: usize,
+    pub(super) shape: Shape,
+    pub(super) count: usize,
+    pub(super) is_sparse: bool,
+    /// Its buffer view is compressed: the bytes are no records.
+    pub(super) is_compressed: bool,
+    /// The JSON states its smallest and largest values.
+    pub(super) is_bounded: bool,
+    /// Its buffer view has a stride that is not its element size.
+    pub(super) is_strided: bool,
+    /// An extension on it, its view or its buffer that is not known here.
+    pub(super) unknown_extension: Option<String>,
+    /// Its bytes are part of JSON text that must stay as it is.
+    pub(super) is_fixed: bool,
+}
+
+/// The component types by their number in the file.
+pub(super) const UNSIGNED_BYTE: usize = 5121;
+pub(super) const UNSIGNED_SHORT: usize = 5123;
+pub(super) const UNSIGNED_INT: usize = 5125;
+pub(super) const FLOAT: usize = 5126;
+
+/// Columns and rows of an element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shape {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+}
+
+impl Shape {
+    pub(super) const SCALAR: Self = Self {
+        columns: 1,
+        rows: 1,
+    };
+    pub(super) const VEC3: Self = Self {
+        columns: 1,
+        rows: 3,
+    };
+
+    fn of_name(name: &str) -> Option<Self> {
+        let (columns, rows) = match name {
+            "SCALAR" => (1, 1),
+            "VEC2" => (1, 2),
+            "VEC3" => (1, 3),
+            "VEC4" => (1, 4),
+            "MAT2" => (2, 2),
+            "MAT3" => (3, 3),
+            "MAT4" => (4, 4),
+            _ => return None,
+        };
+        Some(Self { columns, rows })
+    }
+
+    /// The bytes from one column to the next, and of a whole element.
+    fn sizes(self, width: usize) -> (usize, usize) {
+        let tight = self.rows * width;
+        // Each column of a matrix starts at a multiple of four bytes.
+        let column = match self.columns {
+            1 => tight,
+            _ => tight.next_multiple_of(4),
+        };
+        (column, (self.columns - 1) * column + tight)
+    }
+}
+
+/// The accessors of a file.
+pub(super) struct Accessors<'a> {
+    accessors: &'a [Value],
+    views: &'a [Value],
+    buffer_values: &'a [Value],
+    buffers: &'a Buffers,
+    /// Whether the file is a GLB, whose JSON stays byte for byte.
+    is_glb: bool,
+}
+
+/// Extensions that say nothing about the order of anything.
+pub(super) const ORDER_FREE: [&str; 3] = [
+    "KHR_materials_variants",
+    "KHR_mesh_quantization",
+    "KHR_xmp_json_ld",
+];
+
+/// The extensions that keep a buffer view's bytes compressed.
+pub(super) const COMPRESSED_VIEW: [&str; 2] =
+    ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+impl<'a> Accessors<'a> {
+    pub(super) fn new(
+        root: &Object<'a>,
+        buffers: &'a Buffers,
+        is_glb: bool,
+    ) -> Result<Self, Problem> {
+        Ok(Self {
+            accessors: root.array("accessors")?,
+            views: root.array("bufferViews")?,
+            buffer_values: root.array("buffers")?,
+            buffers,
+            is_glb,
+        })
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.accessors.len()
+    }
+
+    pub(super) fn value(&self, number: usize) -> Option<&'a Value> {
+        self.accessors.get(number)
+    }
+
+    pub(super) fn views(&self) -> &'a [Value] {
+        self.views
+    }
+
+    /// The accessor with this number; `user` is the pointer to what names it.
+    pub(super) fn resolve(&self, number: usize, user: &str) -> Result<Accessor, Problem> {
+        let value = element(self.accessors, "accessor", number, user)?;
+        let object = Object::new(value, format!("/accessors/{number}"))?;
+        let component = object.required_number("componentType")?;
+        let width = match component {
+            5120 | UNSIGNED_BYTE => 1,
+            5122 | UNSIGNED_SHORT => 2,
+            5124 | UNSIGNED_INT | FLOAT => 4,
+            // 64-bit components come with an extension; their size is all that counts here.
+            5130 | 5134 | 5135 => 8,
+            other => {
+                return Err(object.problem(format!("there is no component type {other}")));
+            }
+        };
+        let name = object.text("type")?;
+        let name = name.ok_or_else(|| object.problem("type is missing"))?;
+        let shape = Shape::of_name(name)
+            .ok_or_else(|| object.problem(format!("there is no type {name:?}")))?;
+        let (column, size) = shape.sizes(width);
+        let mut accessor = Accessor {
+            size,
+            records: None,
+            component,
+            shape,
+            count: object.required_number("count")?,
+            is_sparse: object.has("sparse"),
+            is_compressed: false,
+            is_bounded: object.has("min") || object.has("max"),
+            is_strided: false,
+            unknown_extension: unknown_of(object.extensions()?),
+            is_fixed: false,
+            pointer: object.pointer().to_owned(),
+        };
+        if let Some(view) = object.number("bufferView")? {
+            let tight_stride = shape.columns * column;
+            self.place(&mut accessor, &object, tight_stride, view)?;
+        }
+        Ok(accessor)
+    }
+
+    /// Finds the records of an accessor in its buffer view.
+    fn place(
+        &self,
+        accessor: &mut Accessor,
+        object: &Object,
+        tight_stride: usize,
+        number: usize,
+    ) -> Result<(), Problem> {
+        let offset = object.number("byteOffset")?.unwrap_or(0);
+        let value = element(self.views, "buffer view", number, object.pointer())?;
+        let view = Object::new(value, format!("/bufferViews/{number}"))?;
+        for name in view.extensions()? {
+            match COMPRESSED_VIEW.contains(&name) {
+                true => accessor.is_compressed = true,
+                false => accessor.unknown_extension = unknown_of(vec![name]),
+            }
+        }
+        if accessor.is_compressed {
+            return Ok(());
+        }
+        let (storage, view_start, view_length) = self.view_bytes(&view)?;
+        let buffer = view.required_number("buffer")?;
+        let buffer = Object::new(&self.buffer_values[buffer], format!("/buffers/{buffer}"))?;
+        if let Some(name) = unknown_of(buffer.extensions()?) {
+            accessor.unknown_extension = Some(name);
+        }
+        let in_chunk = self.buffers.storages[storage].source == Source::Binary;
+        accessor.is_fixed = self.is_glb && !in_chunk;
+
+        let size = accessor.size;
+        // Some exporters write a stride of 0 for "none".
+        let stride = view.number("byteStride")?.filter(|&stride| stride != 0);
+        accessor.is_strided = stride.is_some_and(|stride| stride != size);
+        let stride = stride.unwrap_or(tight_stride);
+        if stride < size {
+            return Err(view.problem(format!(
+                "byteStride {stride} is less than the {size} bytes of an element of {}",
+                accessor.pointer
+            )));
+        }
+        let length = match accessor.count.checked_sub(1) {
+            Some(last) => last.checked_mul(stride).and_then(|n| n.checked_add(size)),
+            None => Some(0),
+        };
+        let end = length.and_then(|length| length.checked_add(offset));
+        if end.is_none_or(|end| end > view_length) {
+            return Err(object.problem(format!(
+                "{} elements of {size} bytes from byte {offset} on reach past the {view_length} \
+                 bytes of buffer view {number}",
+                accessor.count
+            )));
+        }
+        accessor.records = Some(Records {
+            storage,
+            start: view_start + offset,
+            count: accessor.count,
+            // With one record the distance to the next means nothing.
+            stride: if accessor.count > 1 { stride } else { size },
+            size,
+        });
+        Ok(())
+    }
+
+    /// The storage, start and length of a buffer view.
+    fn view_bytes(&self, view: &Object) -> Result<(usize, usize, usize), Problem> {
+        let number = view.required_number("buffer")?;
+        let storage = self.buffers.storage_of(number, view.pointer().to_owned())?;
+        let buffer = Object::new(&self.buffer_values[number], format!("/buffers/{number}"))?;
+        let promised = buffer.required_number("byteLength")?;
+        let found = self.buffers.storages[storage].bytes.len();
+        if promised > found {
+            return Err(buffer.problem(format!(
+                "byteLength is {promised}, but only {found} bytes are there: the buffer is cut off"
+            )));
+        }
+        let start = view.number("byteOffset")?.unwrap_or(0);
+        let length = view.required_number("byteLength")?;
+        match start.checked_add(length).filter(|&end| end <= promised) {
+            Some(_) => Ok((storage, start, length)),
+            None => Err(view.problem(format!(
+                "{length} bytes from byte {start} on reach past the {promised} bytes of buffer \
+                 {number}"
+            ))),
+        }
+    }
+
+    /// The bytes of a buffer view (or of a compressed one's source) from `offset` on, `length` or
+    /// all of them, as far as they are there: for what is only kept out of the way.
+    pub(super) fn claimed_bytes(
+        &self,
+        view: &Value,
+        offset: usize,
+        length: Option<usize>,
+    ) -> Option<Records> {
+        let field = |name: &str| view.get(name).and_then(whole);
+        let storage = self.buffers.find(field("buffer")?)?;
+        let stored = self.buffers.storages[storage].bytes.len();
+        let view_start = field("byteOffset").unwrap_or(0);
+        let view_end = view_start.saturating_add(field("byteLength").unwrap_or(usize::MAX));
+        let start = view_start.saturating_add(offset).min(stored);
+        let size = view_end.min(stored).saturating_sub(start);
+        let size = length.map_or(size, |length| length.min(size));
+        Some(Records {
+            storage,
+            start,
+            count: usize::from(size > 0),
+            stride: size,
+            size,
+        })
+    }
+}
+
+/// The first extension that may give bytes another meaning.
+fn unknown_of(names: Vec<&str>) -> Option<String> {
+    let unknown = names.into_iter().find(|name| !ORDER_FREE.contains(name));
+    unknown.map(str::to_owned)
+}
+
+fn element<'a>(
+    values: &'a [Value],
+    what: &str,
+    number: usize,
+    user: &str,
+) -> Result<&'a Value, Problem> {
+    values.get(number).ok_or_else(|| {
+        malformed(
+            user.to_owned(),
+            format!("there is no {what} {number}: the file has {}", values.len()),
+        )
+    })
+}

@@ -1,0 +1,337 @@
+//! The buffers of a glTF: the binary chunk, `data:` URIs and files beside it.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::base64;
+use super::json::{Object, malformed};
+use crate::files::document::read_limited;
+use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::limits::Limits;
+
+/// Bytes that one or more buffers of the JSON stand for.
+pub(super) struct Storage {
+    pub(super) source: Source,
+    pub(super) bytes: Vec<u8>,
+    /// Whether a permutation has moved records in it.
+    pub(super) is_changed: bool,
+}
+
+/// Where the bytes of a storage came from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Source {
+    /// The binary chunk of a GLB.
+    Binary,
+    /// A `data:` URI of this buffer.
+    Data {
+        /// The number of the buffer.
+        buffer: usize,
+        /// The URI up to and with the comma.
+        prefix: String,
+    },
+    /// A file, by its path relative to the glTF.
+    External(PathBuf),
+}
+
+/// Why a buffer has no bytes; a problem only if something needs them.
+#[derive(Debug, Clone)]
+enum Loss {
+    NoUri,
+    BadUri(String),
+    Unreadable(io::ErrorKind, String),
+    OverLimit {
+        what: &'static str,
+        found: u64,
+        limit: u64,
+    },
+}
+
+/// All buffers of a file.
+#[derive(Default)]
+pub(super) struct Buffers {
+    pub(super) storages: Vec<Storage>,
+    /// For each buffer of the JSON its storage.
+    of_buffer: Vec<Result<usize, Loss>>,
+}
+
+impl Buffers {
+    /// Reads every buffer that can be read.
+    pub(super) fn load(
+        root: &Object,
+        binary: Option<Vec<u8>>,
+        path: &Path,
+        limits: &Limits,
+    ) -> Result<Self, Problem> {
+        let mut buffers = Self::default();
+        let mut external = BTreeMap::new();
+        let mut binary = binary;
+        for (number, buffer) in root.objects("buffers")?.enumerate() {
+            let storage = match buffer?.text("uri")? {
+                None if number == 0 && binary.is_some() => {
+                    Ok(buffers.store(Source::Binary, binary.take().unwrap_or_default()))
+                }
+                None => Err(Loss::NoUri),
+                Some(uri) if starts_with_ignoring_case(uri, "data:") => {
+                    decode_data(uri).map(|(prefix, bytes)| {
+                        let prefix = prefix.to_owned();
+                        buffers.store(
+                            Source::Data {
+                                buffer: number,
+                                prefix,
+                            },
+                            bytes,
+                        )
+                    })
+                }
+                // Two buffers over one file are one storage: their bytes are the same bytes.
+                Some(uri) => relative_path(uri).and_then(|relative| {
+                    external
+                        .entry(relative.clone())
+                        .or_insert_with(|| {
+                            let bytes = read_beside(path, &relative, limits)?;
+                            Ok(buffers.store(Source::External(relative), bytes))
+                        })
+                        .clone()
+                }),
+            };
+            buffers.of_buffer.push(storage);
+        }
+        // A binary chunk that no buffer names is kept as it is.
+        if let Some(bytes) = binary {
+            buffers.store(Source::Binary, bytes);
+        }
+        Ok(buffers)
+    }
+
+    fn store(&mut self, source: Source, bytes: Vec<u8>) -> usize {
+        self.storages.push(Storage {
+            source,
+            bytes,
+            is_changed: false,
+        });
+        self.storages.len() - 1
+    }
+
+    /// The storage of a buffer; `user` is the pointer to what names it.
+    pub(super) fn storage_of(&self, buffer: usize, user: String) -> Result<usize, Problem> {
+        let count = self.of_buffer.len();
+        match self.of_buffer.get(buffer) {
+            Some(Ok(storage)) => Ok(*storage),
+            Some(Err(loss)) => Err(loss.problem(buffer)),
+            None => Err(malformed(
+                user,
+                format!("there is no buffer {buffer}: the file has {count}"),
+            )),
+        }
+    }
+
+    /// The storage of a buffer, if it has bytes.
+    pub(super) fn find(&self, buffer: usize) -> Option<usize> {
+        self.of_buffer.get(buffer)?.as_ref().ok().copied()
+    }
+
+    /// The external buffers that could not be read, and why.
+    pub(super) fn unreadable(&self) -> impl Iterator<Item = (usize, String)> {
+        let lost = self.of_buffer.iter().enumerate();
+        lost.filter_map(|(buffer, storage)| match storage {
+            Ok(_) | Err(Loss::NoUri) => None,
+            Err(loss) => Some((buffer, loss.problem(buffer).kind.to_string())),
+        })
+    }
+
+    /// The buffers that stand for this storage.
+    pub(super) fn buffers_over(&self, storage: usize) -> impl Iterator<Item = usize> {
+        let over = move |found: &Result<usize, Loss>| matches!(found, Ok(s) if *s == storage);
+        (0..self.of_buffer.len()).filter(move |&buffer| over(&self.of_buffer[buffer]))
+    }
+
+    /// The bytes of a storage, for a change.
+    pub(super) fn bytes_to_change(&mut self, storage: usize) -> &mut [u8] {
+        let storage = &mut self.storages[storage];
+        storage.is_changed = true;
+        &mut storage.bytes
+    }
+
+    /// How many bytes are held in all.
+    pub(super) fn byte_count(&self) -> usize {
+        self.storages
+            .iter()
+            .map(|storage| storage.bytes.len())
+            .sum()
+    }
+}
+
+impl Loss {
+    fn problem(&self, buffer: usize) -> Problem {
+        let pointer = format!("/buffers/{buffer}/uri");
+        match self {
+            Self::NoUri => malformed(
+                format!("/buffers/{buffer}"),
+                "the buffer has no uri, and no binary chunk stands for it",
+            ),
+            Self::BadUri(text) => malformed(pointer, text),
+            Self::Unreadable(kind, text) => {
+                FileErrorKind::Io(io::Error::new(*kind, text.clone())).at(Place::Json(pointer))
+            }
+            Self::OverLimit { what, found, limit } => FileErrorKind::OverLimit {
+                what,
+                found: *found,
+                limit: *limit,
+            }
+            .at(Place::Json(pointer)),
+        }
+    }
+}
+
+fn read_beside(path: &Path, relative: &Path, limits: &Limits) -> Result<Vec<u8>, Loss> {
+    let beside = path.with_file_name(relative);
+    read_limited(&beside, limits).map_err(|kind| match kind {
+        FileErrorKind::Io(error) => Loss::Unreadable(
+            error.kind(),
+            format!(
+                "{} cannot be read ({error}). Put it beside the glTF",
+                relative.display()
+            ),
+        ),
+        FileErrorKind::OverLimit { what, found, limit } => Loss::OverLimit { what, found, limit },
+        other => Loss::BadUri(other.to_string()),
+    })
+}
+
+fn decode_data(uri: &str) -> Result<(&str, Vec<u8>), Loss> {
+    let bad = |text: String| Err(Loss::BadUri(text));
+    let Some(comma) = uri.find(',') else {
+        return bad("a data: URI needs a comma before its data".into());
+    };
+    let (prefix, data) = uri.split_at(comma + 1);
+    if !prefix.to_ascii_lowercase().ends_with(";base64,") {
+        return bad("the data: URI is not base64: export it as base64 or as a file".into());
+    }
+    match base64::decode(data) {
+        Ok(bytes) => Ok((prefix, bytes)),
+        Err(position) => bad(format!(
+            "the base64 data is wrong at character {position} of {}",
+            data.len()
+        )),
+    }
+}
+
+/// The path that a URI names, if it is one that stays below the folder of the glTF.
+fn relative_path(uri: &str) -> Result<PathBuf, Loss> {
+    let bad = |why: &str| {
+        Err(Loss::BadUri(format!(
+            "{uri:?} {why}: only files in the folder of the glTF or below are read"
+        )))
+    };
+    let Some(decoded) = percent_decoded(uri) else {
+        return bad("is no UTF-8 text when decoded");
+    };
+    if decoded.starts_with('/') {
+        return bad("is an absolute path");
+    }
+    if decoded.contains(':') {
+        return bad("has a scheme or a drive");
+    }
+    if decoded.contains(['\\', '\0']) {
+        return bad("has a character that file names cannot share between systems");
+    }
+    let segments = decoded.split('/').filter(|s| !matches!(*s, "" | "."));
+    let mut path = PathBuf::new();
+    for segment in segments {
+        if segment == ".." {
+            return bad("leaves the folder of the glTF");
+        }
+        path.push(segment);
+    }
+    match path.as_os_str().is_empty() || decoded.ends_with('/') {
+        true => bad("names no file"),
+        false => Ok(path),
+    }
+}
+
+fn percent_decoded(uri: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let Some((&byte, after)) = rest.split_first() {
+        let digit = |i: usize| char::from(*after.get(i)?).to_digit(16);
+        let pair = digit(0).zip(digit(1)).map(|(high, low)| high * 16 + low);
+        match pair.and_then(|code| u8::try_from(code).ok()) {
+            Some(code) if byte == b'%' => {
+                bytes.push(code);
+                rest = &after[2..];
+            }
+            // A lone `%` stands for itself: some exporters do not encode at all.
+            _ => {
+                bytes.push(byte);
+                rest = after;
+            }
+        }
+    }
+    String::from_utf8(bytes).ok()
+}
+
+/// A file name as a URI: everything but unreserved characters encoded.
+pub(super) fn percent_encoded(name: &str) -> String {
+    let mut uri = String::new();
+    for &byte in name.as_bytes() {
+        match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
+                uri.push(char::from(byte));
+            }
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
+}
+
+fn starts_with_ignoring_case(text: &str, start: &str) -> bool {
+    let found = text.as_bytes().get(..start.len());
+    found.is_some_and(|found| found.eq_ignore_ascii_case(start.as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_stay_in_the_folder() {
+        let good = |uri| relative_path(uri).unwrap();
+        assert_eq!(good("a.bin"), Path::new("a.bin"));
+        assert_eq!(good("./sub//a%20b.bin"), Path::new("sub/a b.bin"));
+        assert_eq!(good("100%.bin"), Path::new("100%.bin"));
+        for uri in [
+            "",
+            "/etc/passwd",
+            "http://host/a.bin",
+            "C:/a.bin",
+            "../a.bin",
+            "sub/../a.bin",
+            "%2e%2e%2Fa.bin",
+            "..\\a.bin",
+            "sub/",
+            "a%00.bin",
+            "%FF.bin",
+        ] {
+            assert!(relative_path(uri).is_err(), "{uri}");
+        }
+    }
+
+    #[test]
+    fn names_survive_the_way_through_a_uri() {
+        for name in ["a.bin", "ä b%.bin", "x#y?.bin"] {
+            let uri = percent_encoded(name);
+            assert!(uri.is_ascii() && !uri.contains(' '), "{uri}");
+            assert_eq!(percent_decoded(&uri).unwrap(), name);
+        }
+    }
+
+    #[test]
+    fn data_must_be_base64() {
+        let (prefix, bytes) = decode_data("data:a/b;x=y;base64,AAE=").unwrap();
+        assert_eq!((prefix, bytes), ("data:a/b;x=y;base64,", vec![0, 1]));
+        for uri in ["data:", "data:,abc", "data:;base64,A*AA"] {
+            assert!(decode_data(uri).is_err(), "{uri}");
+        }
+    }
+}

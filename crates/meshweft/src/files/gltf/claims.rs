@@ -1,0 +1,281 @@
+//! Who reads which bytes: records are moved only if nobody else looks at them.
+
+use serde_json::Value;
+
+use super::accessors::{Accessors, COMPRESSED_VIEW, UNSIGNED_BYTE, UNSIGNED_SHORT};
+use super::json::{Object, whole};
+use super::primitives::{Draft, IndexList, Primitives};
+use super::records::Records;
+use std::collections::BTreeMap;
+
+/// How many pairs of overlapping ranges are looked at before all are taken to be in conflict.
+///
+/// Honest files have a few pairs for each accessor; only a file made to waste time has millions.
+const MOST_PAIRS: usize = 1 << 24;
+
+/// Records of the file and the drafts that read them.
+#[derive(Debug)]
+pub(super) struct Stream {
+    pub(super) records: Records,
+    pub(super) index_users: Vec<usize>,
+    pub(super) vertex_users: Vec<usize>,
+    pub(super) outline_users: Vec<usize>,
+    /// The pointer to something else that reads some of the bytes.
+    pub(super) taken_by: Option<String>,
+    /// The pointer to the first that reads it, for others' `taken_by`.
+    pointer: String,
+}
+
+impl Stream {
+    pub(super) fn users(&self) -> impl Iterator<Item = usize> {
+        let users = [&self.index_users, &self.vertex_users, &self.outline_users];
+        users.into_iter().flatten().copied()
+    }
+}
+
+/// All records of the file, rising.
+#[derive(Debug)]
+pub(super) struct Claims {
+    pub(super) streams: Vec<Stream>,
+}
+
+impl Claims {
+    pub(super) fn new(root: &Object, accessors: &Accessors, primitives: &Primitives) -> Self {
+        let mut building = Building::default();
+        for (user, draft) in primitives.drafts.iter().enumerate() {
+            building.add_draft(user, draft);
+        }
+        let mut is_moved = vec![false; accessors.len()];
+        for &number in primitives.drafts.iter().flat_map(|draft| &draft.accessors) {
+            if let Some(is_moved) = is_moved.get_mut(number) {
+                *is_moved = true;
+            }
+        }
+        for left in &primitives.left {
+            for &number in &left.accessors {
+                building.take_accessor(accessors, number, &left.pointer);
+            }
+        }
+        for (number, pointer) in other_users(root) {
+            building.take_accessor(accessors, number, &pointer);
+        }
+        // An accessor that no primitive names may be one that an unknown extension reads.
+        for (number, is_moved) in is_moved.into_iter().enumerate() {
+            if !is_moved && !primitives.order_free_accessors.contains(&number) {
+                building.take_accessor(accessors, number, &format!("/accessors/{number}"));
+            }
+        }
+        building.take_views(root, accessors);
+        let mut claims = Self {
+            streams: building.streams.into_values().collect(),
+        };
+        claims.mark_overlaps();
+        claims
+    }
+
+    /// The number of the stream with these records.
+    pub(super) fn position(&self, records: &Records) -> Option<usize> {
+        self.streams
+            .binary_search_by(|stream| stream.records.cmp(records))
+            .ok()
+    }
+
+    fn mark_overlaps(&mut self) {
+        let mut pairs = 0;
+        for first in 0..self.streams.len() {
+            let records = self.streams[first].records;
+            for second in first + 1..self.streams.len() {
+                let other = self.streams[second].records;
+                if other.storage != records.storage || other.start >= records.end() {
+                    break;
+                }
+                pairs += 1;
+                if pairs > MOST_PAIRS {
+                    return self.take_all();
+                }
+                if records.overlap(&other) {
+                    self.mark(first, second);
+                    self.mark(second, first);
+                }
+            }
+        }
+    }
+
+    fn mark(&mut self, stream: usize, other: usize) {
+        if self.streams[stream].taken_by.is_none() {
+            self.streams[stream].taken_by = Some(self.streams[other].pointer.clone());
+        }
+    }
+
+    fn take_all(&mut self) {
+        for stream in &mut self.streams {
+            let too_many = || "too many accessors that overlap".to_owned();
+            stream.taken_by.get_or_insert_with(too_many);
+        }
+    }
+}
+
+#[derive(Default)]
+struct Building {
+    streams: BTreeMap<Records, Stream>,
+}
+
+impl Building {
+    fn stream(&mut self, records: Records, pointer: &str) -> &mut Stream {
+        self.streams.entry(records).or_insert_with(|| Stream {
+            records,
+            index_users: Vec::new(),
+            vertex_users: Vec::new(),
+            outline_users: Vec::new(),
+            taken_by: None,
+            pointer: pointer.to_owned(),
+        })
+    }
+
+    fn add_draft(&mut self, user: usize, draft: &Draft) {
+        let of = |list: &Option<IndexList>| list.as_ref().map(|list| list.records);
+        if let Some(records) = of(&draft.indices) {
+            let stream = self.stream(records, &draft.pointer);
+            stream.index_users.push(user);
+        }
+        if let Some(records) = of(&draft.outline) {
+            let stream = self.stream(records, &draft.pointer);
+            stream.outline_users.push(user);
+        }
+        for &records in &draft.vertices {
+            let stream = self.stream(records, &draft.pointer);
+            stream.vertex_users.push(user);
+        }
+    }
+
+    fn take(&mut self, records: Records, by: &str) {
+        let stream = self.stream(records, by);
+        stream.taken_by.get_or_insert_with(|| by.to_owned());
+    }
+
+    fn take_accessor(&mut self, accessors: &Accessors, number: usize, by: &str) {
+        let resolved = accessors.resolve(number, by);
+        // One that is not sound has no records to keep clear of; its view is taken as a whole.
+        match resolved.ok().and_then(|accessor| accessor.records) {
+            Some(records) => self.take(records, by),
+            None => {
+                let view = accessors.value(number).and_then(|a| a.get("bufferView"));
+                self.take_view(accessors, view, by);
+            }
+        }
+    }
+
+    fn take_view(&mut self, accessors: &Accessors, number: Option<&Value>, by: &str) {
+        let view = number
+            .and_then(whole)
+            .and_then(|n| accessors.views().get(n));
+        if let Some(records) = view.and_then(|view| accessors.claimed_bytes(view, 0, None)) {
+            self.take(records, by);
+        }
+    }
+
+    /// Takes the buffer views that are not read through accessors, or not only.
+    fn take_views(&mut self, root: &Object, accessors: &Accessors) {
+        let mut is_read = vec![false; accessors.views().len()];
+        for number in 0..accessors.len() {
+            let Some(accessor) = accessors.value(number) else {
+                continue;
+            };
+            let view = accessor.get("bufferView").and_then(whole);
+            if let Some(is_read) = view.and_then(|view| is_read.get_mut(view)) {
+                *is_read = true;
+            }
+            self.take_sparse(accessors, number, accessor);
+        }
+        for (number, image) in values(root.value("images")) {
+            let pointer = format!("/images/{number}");
+            self.take_view(accessors, image.get("bufferView"), &pointer);
+        }
+        for (number, view) in accessors.views().iter().enumerate() {
+            let pointer = format!("/bufferViews/{number}");
+            for name in COMPRESSED_VIEW {
+                let source = view.get("extensions").and_then(|e| e.get(name));
+                let records = source.and_then(|view| accessors.claimed_bytes(view, 0, None));
+                if let Some(records) = records {
+                    self.take(records, &pointer);
+                }
+            }
+            if !is_read[number] {
+                self.take_view(accessors, Some(&Value::from(number)), &pointer);
+            }
+        }
+    }
+
+    /// Takes the bytes of a sparse accessor's replacements.
+    fn take_sparse(&mut self, accessors: &Accessors, number: usize, accessor: &Value) {
+        let Some(sparse) = accessor.get("sparse") else {
+            return;
+        };
+        let count = sparse.get("count").and_then(whole).unwrap_or(usize::MAX);
+        // No element is longer than a MAT4 of doubles; an index has at most four bytes.
+        let resolved = accessors.resolve(number, "");
+        let value_size = resolved.map_or(128, |accessor| accessor.size);
+        for name in ["indices", "values"] {
+            let Some(part) = sparse.get(name) else {
+                continue;
+            };
+            let field = |name: &str| part.get(name).and_then(whole);
+            let view = field("bufferView").and_then(|view| accessors.views().get(view));
+            let offset = field("byteOffset").unwrap_or(0);
+            let size = match name {
+                "indices" => index_size(part),
+                _ => value_size,
+            };
+            let length = count.saturating_mul(size);
+            let records = view.and_then(|view| accessors.claimed_bytes(view, offset, Some(length)));
+            if let Some(records) = records {
+                self.take(records, &format!("/accessors/{number}/sparse"));
+            }
+        }
+    }
+}
+
+/// The bytes of an index into a sparse accessor.
+fn index_size(indices: &Value) -> usize {
+    match indices.get("componentType").and_then(whole) {
+        Some(UNSIGNED_BYTE) => 1,
+        Some(UNSIGNED_SHORT) => 2,
+        _ => 4,
+    }
+}
+
+/// The accessors that something other than a primitive reads, and the pointers to that.
+fn other_users(root: &Object) -> Vec<(usize, String)> {
+    let mut users = Vec::new();
+    for (number, animation) in values(root.value("animations")) {
+        for (_, sampler) in values(animation.get("samplers")) {
+            for name in ["input", "output"] {
+                let accessor = sampler.get(name).and_then(whole);
+                users.extend(accessor.map(|a| (a, format!("/animations/{number}"))));
+            }
+        }
+    }
+    for (number, skin) in values(root.value("skins")) {
+        let accessor = skin.get("inverseBindMatrices").and_then(whole);
+        users.extend(accessor.map(|a| (a, format!("/skins/{number}"))));
+    }
+    for (number, node) in values(root.value("nodes")) {
+        let instancing = node
+            .get("extensions")
+            .and_then(|extensions| extensions.get("EXT_mesh_gpu_instancing"))
+            .and_then(|extension| extension.get("attributes"))
+            .and_then(Value::as_object);
+        let accessors = instancing.into_iter().flat_map(|a| a.values());
+        users.extend(
+            accessors
+                .filter_map(whole)
+                .map(|a| (a, format!("/nodes/{number}"))),
+        );
+    }
+    users
+}
+
+fn values(array: Option<&Value>) -> impl Iterator<Item = (usize, &Value)> {
+    let elements = array.and_then(Value::as_array);
+    elements.into_iter().flatten().enumerate()
+}

@@ -1,0 +1,183 @@
+//! The file around the JSON: a GLB's chunks, or the text itself.
+
+use std::ops::Range;
+
+use crate::files::error::{FileErrorKind, Place, Problem};
+
+const JSON: [u8; 4] = *b"JSON";
+const BINARY: [u8; 4] = *b"BIN\0";
+
+/// A glTF file cut into its JSON, its binary chunk and what stands around them.
+pub(super) struct Container {
+    /// The file up to the data of the binary chunk; all of it if there is none.
+    pub(super) head: Vec<u8>,
+    /// Where in `head` the JSON text stands, without a byte order mark.
+    pub(super) json: Range<usize>,
+    /// The data of a GLB's binary chunk.
+    pub(super) binary: Option<Vec<u8>>,
+    /// What follows it: further chunks, and bytes past the length in the header.
+    pub(super) tail: Vec<u8>,
+}
+
+impl Container {
+    /// A `.gltf`: nothing but text.
+    pub(super) fn of_text(bytes: Vec<u8>) -> Self {
+        let json = without_mark(&bytes, 0..bytes.len());
+        Self {
+            head: bytes,
+            json,
+            binary: None,
+            tail: Vec::new(),
+        }
+    }
+
+    /// A `.glb`: a header of 12 bytes and chunks.
+    pub(super) fn of_chunks(mut bytes: Vec<u8>) -> Result<Self, Problem> {
+        let at = |kind: FileErrorKind, byte| Err(kind.at(Place::Byte(byte)));
+        let header = bytes.get(..12);
+        if bytes.get(..4).is_some_and(|magic| magic != b"glTF") {
+            let problem = "a GLB starts with the letters glTF: this is another kind of file";
+            return at(FileErrorKind::malformed(problem), 0);
+        }
+        if header.is_none() {
+            return at(
+                FileErrorKind::truncated("the GLB header (12 bytes)"),
+                bytes.len(),
+            );
+        }
+        let version = word(&bytes, 4).unwrap_or_default();
+        if version != 2 {
+            let feature = format!("GLB version {version}: only version 2 is read, export it anew");
+            return at(FileErrorKind::unsupported(feature), 4);
+        }
+        let length = word(&bytes, 8).unwrap_or_default();
+        if length > bytes.len() {
+            let what = format!(
+                "the GLB: its header promises {length} bytes, {} are there",
+                bytes.len()
+            );
+            return at(FileErrorKind::truncated(what), bytes.len());
+        }
+        let (json, mut next) = match chunk(&bytes, 12, length)? {
+            Some((JSON, data)) => (data.clone(), data.end),
+            Some(_) => {
+                let problem = "the first chunk of a GLB must hold its JSON";
+                return at(FileErrorKind::malformed(problem), 16);
+            }
+            None => return at(FileErrorKind::malformed("the GLB holds no JSON chunk"), 12),
+        };
+        // Chunks of unknown kind are skipped, as the format asks.
+        let mut binary = None;
+        while binary.is_none() {
+            let Some((kind, data)) = chunk(&bytes, next, length)? else {
+                break;
+            };
+            next = data.end;
+            binary = (kind == BINARY).then_some(data);
+        }
+        let json = without_mark(&bytes, json);
+        let (mut data, mut tail) = (None, Vec::new());
+        if let Some(binary) = binary {
+            tail = bytes.split_off(binary.end);
+            data = Some(bytes.split_off(binary.start));
+        }
+        Ok(Self {
+            head: bytes,
+            json,
+            binary: data,
+            tail,
+        })
+    }
+}
+
+/// The kind of a chunk, and where its data stands.
+type Chunk = ([u8; 4], Range<usize>);
+
+/// The chunk at `start`, or `None` at the end of the file.
+fn chunk(bytes: &[u8], start: usize, length: usize) -> Result<Option<Chunk>, Problem> {
+    // Fewer than four bytes can be nothing but padding behind an unaligned chunk.
+    if length.saturating_sub(start) < 4 {
+        return Ok(None);
+    }
+    let truncated = |what: String| FileErrorKind::truncated(what).at(Place::Byte(start));
+    let kind = bytes
+        .get(start + 4..start + 8)
+        .filter(|_| start + 8 <= length);
+    let (Some(size), Some(&[a, b, c, d])) = (word(bytes, start), kind) else {
+        return Err(truncated("the header of a GLB chunk (8 bytes)".into()));
+    };
+    let data = start + 8;
+    match data.checked_add(size).filter(|&end| end <= length) {
+        Some(end) => Ok(Some(([a, b, c, d], data..end))),
+        None => Err(truncated(format!(
+            "a GLB chunk: {size} bytes are promised, {} are there",
+            length - data
+        ))),
+    }
+}
+
+fn word(bytes: &[u8], start: usize) -> Option<usize> {
+    let word = bytes.get(start..start + 4)?;
+    let word = u32::from_le_bytes(word.try_into().ok()?);
+    usize::try_from(word).ok()
+}
+
+/// A byte order mark is not allowed in a glTF, but other loaders skip it.
+fn without_mark(bytes: &[u8], json: Range<usize>) -> Range<usize> {
+    match bytes[json.clone()].starts_with(b"\xEF\xBB\xBF") {
+        true => json.start + 3..json.end,
+        false => json,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn glb(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+        let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
+        for (kind, data) in chunks {
+            bytes.extend_from_slice(&u32::try_from(data.len()).unwrap().to_le_bytes());
+            bytes.extend_from_slice(*kind);
+            bytes.extend_from_slice(data);
+        }
+        let length = u32::try_from(bytes.len()).unwrap().to_le_bytes();
+        bytes[8..12].copy_from_slice(&length);
+        bytes
+    }
+
+    #[test]
+    fn everything_around_the_binary_chunk_is_kept() {
+        let mut bytes = glb(&[(&JSON, b"{}  "), (b"ODD\0", b"1234"), (&BINARY, b"abcd")]);
+        bytes.extend_from_slice(b"more");
+        let container = Container::of_chunks(bytes.clone()).unwrap();
+        assert_eq!(&container.head[container.json.clone()], b"{}  ");
+        assert_eq!(container.binary.as_deref(), Some(&b"abcd"[..]));
+        assert_eq!(container.tail, b"more");
+        let parts = [container.head, container.binary.unwrap(), container.tail];
+        assert_eq!(parts.concat(), bytes);
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_skipped() {
+        let container = Container::of_chunks(glb(&[(&JSON, b"\xEF\xBB\xBF{}   ")])).unwrap();
+        assert_eq!(&container.head[container.json.clone()], b"{}   ");
+        assert_eq!(container.binary, None);
+        assert_eq!(Container::of_text(b"\xEF\xBB\xBF{}".to_vec()).json, 3..5);
+    }
+
+    #[test]
+    fn every_cut_is_an_error_or_sound() {
+        let bytes = glb(&[(&JSON, b"{}  "), (&BINARY, b"abcd")]);
+        for length in 0..bytes.len() {
+            let problem = Container::of_chunks(bytes[..length].to_vec());
+            assert!(problem.is_err(), "{length}");
+            // Again with a header that admits the loss.
+            let mut cut = bytes[..length].to_vec();
+            if length >= 12 {
+                cut[8..12].copy_from_slice(&u32::try_from(length).unwrap().to_le_bytes());
+                let _ = Container::of_chunks(cut);
+            }
+        }
+    }
+}

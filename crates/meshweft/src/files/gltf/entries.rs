@@ -1,0 +1,266 @@
+//! The meshes that a file offers, and the records behind each.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::buffers::Buffers;
+use super::claims::Claims;
+use super::groups::{group_numbers, vertex_pin};
+use super::json::malformed;
+use super::patch;
+use super::primitives::{Draft, IndexList, Pin};
+use super::records::Records;
+use crate::Mesh;
+use crate::error::MeshError;
+use crate::files::MeshEntry;
+use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::limits::index32;
+use crate::permutation::{Permutation, VertexOrder};
+
+/// Where the corners of a mesh's faces are stored.
+#[derive(Debug)]
+pub(super) enum Corners {
+    /// A list of vertex numbers.
+    Indices(Records),
+    /// The vertices themselves, three a face, in each of these.
+    Triples(Vec<Records>),
+}
+
+/// What one vertex order moves.
+#[derive(Debug, Default)]
+pub(super) struct Group {
+    /// Attributes and morph targets.
+    pub(super) vertices: Vec<Records>,
+    /// Lists of vertex numbers other than the faces.
+    pub(super) outlines: Vec<Records>,
+    pub(super) meshes: Vec<usize>,
+}
+
+/// The meshes of a file.
+#[derive(Debug, Default)]
+pub(super) struct Entries {
+    pub(super) meshes: Vec<MeshEntry>,
+    /// One for each mesh.
+    pub(super) corners: Vec<Corners>,
+    pub(super) groups: Vec<Group>,
+    /// The largest index of each mesh as it was read.
+    largest_index: Vec<Option<u32>>,
+    /// Why the vertices of a group stay, and the number of the primitive that comes with it.
+    pub(super) pins: Vec<(usize, Pin)>,
+}
+
+impl Entries {
+    /// Decodes the faces of every draft and decides which vertices may move.
+    pub(super) fn new(
+        drafts: &[Draft],
+        claims: &Claims,
+        buffers: &Buffers,
+    ) -> Result<Self, Problem> {
+        let group_of = group_numbers(drafts, claims);
+        let group_count = group_of.iter().max().map_or(0, |&last| last + 1);
+        let mut entries = Self::default();
+        entries.groups.resize_with(group_count, Group::default);
+        let mut first_of_group = vec![None; group_count];
+        let mut pins: Vec<Option<(usize, Pin)>> = vec![None; group_count];
+        let mut entry_of = BTreeMap::new();
+        let mut looked_through = BTreeSet::new();
+        // Copies of positions take no more memory than the file, however often they are shared.
+        let mut spare_positions = buffers.byte_count() / size_of::<[f32; 3]>();
+
+        for (draft, &group) in drafts.iter().zip(&group_of) {
+            let count = *first_of_group[group].get_or_insert(draft.vertex_count);
+            if pins[group].is_none() && draft.indices.is_some() {
+                pins[group] = vertex_pin(draft, count, claims).map(|pin| (draft.ordinal, pin));
+            }
+            let key = match &draft.indices {
+                Some(list) => list.records,
+                // Every draft has a POSITION with records, and those without indices that share
+                // one share all their data.
+                None => match draft.vertices.first() {
+                    Some(&records) => records,
+                    None => continue,
+                },
+            };
+            let entry = match entry_of.get(&key) {
+                Some(&entry) => entry,
+                None => {
+                    let entry = entries.meshes.len();
+                    entries.add(draft, group, buffers, &mut spare_positions)?;
+                    entry_of.insert(key, entry);
+                    entry
+                }
+            };
+            if entries.largest_index[entry] >= Some(index32(draft.vertex_count)) {
+                check_range(entries.meshes[entry].mesh.faces().as_flattened(), draft)?;
+            }
+            if pins[group].is_none() {
+                // A list is looked through once for its group, however many primitives share it.
+                let lists = draft.indices.iter().chain(&draft.outline);
+                pins[group] = lists
+                    .filter(|list| looked_through.insert((list.records, list.is_bounded)))
+                    .find_map(|list| list_pin(list, draft, buffers))
+                    .map(|pin| (draft.ordinal, pin));
+            }
+            let target = &mut entries.groups[group];
+            target.vertices.extend(&draft.vertices);
+            target
+                .outlines
+                .extend(draft.outline.as_ref().map(|list| list.records));
+        }
+        for group in &mut entries.groups {
+            for records in [&mut group.vertices, &mut group.outlines] {
+                records.sort_unstable();
+                records.dedup();
+            }
+        }
+        for entry in &mut entries.meshes {
+            entry.vertices_movable &= pins[entry.vertex_group].is_none();
+        }
+        entries.pins = pins.into_iter().flatten().collect();
+        Ok(entries)
+    }
+
+    fn add(
+        &mut self,
+        draft: &Draft,
+        group: usize,
+        buffers: &Buffers,
+        spare_positions: &mut usize,
+    ) -> Result<(), Problem> {
+        let at_draft =
+            |error: MeshError| FileErrorKind::Order(error).at(Place::Json(draft.pointer.clone()));
+        let faces = match &draft.indices {
+            Some(list) => {
+                let storage = &buffers.storages[list.records.storage];
+                let numbers = patch::numbers(&storage.bytes, &list.records);
+                check_restart(&numbers, list, draft)?;
+                check_range(&numbers, draft)?;
+                numbers.as_chunks::<3>().0.to_vec()
+            }
+            None => {
+                let count = index32(draft.vertex_count / 3);
+                (0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect()
+            }
+        };
+        let positions = draft
+            .positions
+            .filter(|positions| positions.count <= *spare_positions);
+        let mesh = match positions {
+            Some(records) => {
+                *spare_positions -= records.count;
+                let positions: Vec<[f32; 3]> = records.of(buffers).map(floats).collect();
+                Mesh::new(positions, faces).map_err(at_draft)?
+            }
+            None => Mesh::connectivity_only(draft.vertex_count, faces).map_err(at_draft)?,
+        };
+        let largest = mesh.faces().as_flattened().iter().max();
+        self.largest_index.push(largest.copied());
+        self.groups[group].meshes.push(self.meshes.len());
+        self.meshes.push(MeshEntry {
+            name: draft.name.clone(),
+            runs: if mesh.face_count() == 0 {
+                vec![]
+            } else {
+                vec![0]
+            },
+            mesh,
+            polygons: None,
+            vertex_group: group,
+            vertices_movable: draft.indices.is_some(),
+            corners_turnable: true,
+        });
+        self.corners.push(match &draft.indices {
+            Some(list) => Corners::Indices(list.records),
+            None => Corners::Triples(draft.vertices.clone()),
+        });
+        Ok(())
+    }
+
+    /// Moves the positions of a mesh without indices as its vertices were moved; its faces stay
+    /// three vertices in a row.
+    pub(super) fn move_triples(&mut self, mesh: usize, new_to_old: Vec<u32>) {
+        let entry = &mut self.meshes[mesh].mesh;
+        if entry.positions().is_empty() {
+            return;
+        }
+        let order = VertexOrder::from(Permutation::from_algorithm(new_to_old));
+        let positions = order.permutation().apply(entry.positions());
+        *entry = Mesh::new(positions, entry.faces()).expect("as many positions as before");
+    }
+}
+
+fn floats(record: &[u8]) -> [f32; 3] {
+    let (words, _) = record.as_chunks::<4>();
+    [0, 1, 2].map(|i| words.get(i).map_or(0.0, |word| f32::from_le_bytes(*word)))
+}
+
+/// The largest value of an index type restarts a strip; in a triangle list it is no vertex.
+fn check_restart(numbers: &[u32], list: &IndexList, draft: &Draft) -> Result<(), Problem> {
+    let restart = u32::MAX >> (32 - 8 * list.records.size);
+    match numbers.contains(&restart) {
+        true => Err(malformed(
+            draft.pointer.clone(),
+            format!(
+                "index {restart} restarts a strip and is no vertex: store the indices in a wider \
+                 type"
+            ),
+        )),
+        false => Ok(()),
+    }
+}
+
+fn check_range(numbers: &[u32], draft: &Draft) -> Result<(), Problem> {
+    let count = draft.vertex_count;
+    match numbers.iter().find(|&&number| number as usize >= count) {
+        Some(number) => Err(malformed(
+            draft.pointer.clone(),
+            match count.checked_sub(1) {
+                Some(last) => format!("index {number} is past the last vertex ({last})"),
+                None => format!("index {number}, but there are no vertices"),
+            },
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Why a vertex order cannot renumber this list, if so.
+fn list_pin(list: &IndexList, draft: &Draft, buffers: &Buffers) -> Option<Pin> {
+    let bytes = &buffers.storages[list.records.storage].bytes;
+    let pin = |why: &str| {
+        Some(Pin {
+            pointer: list.pointer.clone(),
+            why: why.to_owned(),
+        })
+    };
+    let is_outline = draft
+        .outline
+        .as_ref()
+        .is_some_and(|outline| outline.records == list.records);
+    if is_outline {
+        let numbers = patch::numbers(bytes, &list.records);
+        let most = u32::MAX >> (32 - 8 * list.records.size);
+        if draft.vertex_count > most as usize {
+            return pin("the numbers of the outline do not reach all of them");
+        }
+        if numbers.iter().any(|&n| n as usize >= draft.vertex_count) {
+            return pin("the outline names vertices that are not there");
+        }
+    }
+    // If every vertex is named, the smallest and the largest number stay what they are.
+    if list.is_bounded && !names_all(bytes, &list.records, draft.vertex_count) {
+        return pin("the JSON states the smallest and largest index, and they would change");
+    }
+    None
+}
+
+fn names_all(bytes: &[u8], records: &Records, vertex_count: usize) -> bool {
+    if records.count < vertex_count {
+        return false;
+    }
+    let mut is_named = vec![false; vertex_count];
+    for number in patch::numbers(bytes, records) {
+        if let Some(is_named) = is_named.get_mut(number as usize) {
+            *is_named = true;
+        }
+    }
+    is_named.into_iter().all(|named| named)
+}

@@ -1,0 +1,213 @@
+//! Which primitives share what, and so which faces and vertices can be moved.
+
+use std::collections::BTreeMap;
+
+use super::claims::Claims;
+use super::primitives::{Draft, Left, Pin, Primitives};
+
+/// A number for each set of streams, so that sets are compared once.
+type SetNumber = usize;
+
+/// Which primitives read a stream as their vertices.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Readers {
+    None,
+    /// Only primitives without indices, all with this same set of vertices.
+    Triples(SetNumber),
+    Mixed,
+}
+
+/// Moves the drafts whose faces cannot be re-ordered on their own to `left`.
+///
+/// One that stays reads its data in the old order, so those who share it must stay as well: the
+/// reasons spread until nothing changes.
+///
+/// # Complexity
+/// Time O(n log n) in the accessors that primitives name: each stream is taken once at most.
+pub(super) fn leave_entangled(primitives: &mut Primitives, claims: &mut Claims) {
+    let drafts = &primitives.drafts;
+    let sets = set_numbers(drafts);
+    let mut readers = vec![Readers::None; claims.streams.len()];
+    for (stream, readers) in claims.streams.iter().zip(&mut readers) {
+        for &user in &stream.vertex_users {
+            let one = match drafts[user].indices {
+                None => Readers::Triples(sets[user]),
+                Some(_) => Readers::Mixed,
+            };
+            *readers = match *readers {
+                Readers::None => one,
+                same if same == one => one,
+                _ => Readers::Mixed,
+            };
+        }
+    }
+    let mut reasons: Vec<Option<String>> = vec![None; drafts.len()];
+    let mut to_check: Vec<usize> = (0..drafts.len()).rev().collect();
+    while let Some(user) = to_check.pop() {
+        if reasons[user].is_some() {
+            continue;
+        }
+        let draft = &drafts[user];
+        reasons[user] = match &draft.indices {
+            Some(_) => entangled_indices(draft, claims),
+            None => entangled_triples(draft, claims, &readers),
+        };
+        if reasons[user].is_none() {
+            continue;
+        }
+        let indices = draft.indices.iter().chain(&draft.outline);
+        let records = indices.map(|list| &list.records).chain(&draft.vertices);
+        for records in records {
+            let Some(position) = claims.position(records) else {
+                continue;
+            };
+            let stream = &mut claims.streams[position];
+            if stream.taken_by.is_none() {
+                stream.taken_by = Some(draft.pointer.clone());
+                to_check.extend(stream.users());
+            }
+        }
+    }
+    let mut kept = Vec::new();
+    // The numbers of the drafts that stay drafts change, so those of the users do too.
+    let mut new_number = vec![None; reasons.len()];
+    for (old, (draft, reason)) in primitives.drafts.drain(..).zip(reasons).enumerate() {
+        match reason {
+            Some(why) => primitives.left.push(Left {
+                ordinal: draft.ordinal,
+                pointer: draft.pointer,
+                why,
+                accessors: draft.accessors,
+            }),
+            None => {
+                new_number[old] = Some(kept.len());
+                kept.push(draft);
+            }
+        }
+    }
+    primitives.drafts = kept;
+    for stream in &mut claims.streams {
+        for users in [
+            &mut stream.index_users,
+            &mut stream.vertex_users,
+            &mut stream.outline_users,
+        ] {
+            *users = users.iter().filter_map(|&user| new_number[user]).collect();
+        }
+    }
+}
+
+fn entangled_indices(draft: &Draft, claims: &Claims) -> Option<String> {
+    let position = claims.position(&draft.indices.as_ref()?.records)?;
+    let stream = &claims.streams[position];
+    if let Some(by) = &stream.taken_by {
+        return Some(format!("its indices share bytes with {by}"));
+    }
+    let is_alone = stream.vertex_users.is_empty() && stream.outline_users.is_empty();
+    (!is_alone).then(|| "its indices are also read as something else".to_owned())
+}
+
+fn entangled_triples(draft: &Draft, claims: &Claims, readers: &[Readers]) -> Option<String> {
+    for position in draft.vertices.iter().filter_map(|r| claims.position(r)) {
+        let stream = &claims.streams[position];
+        if let Some(by) = &stream.taken_by {
+            return Some(format!("its vertices share bytes with {by}"));
+        }
+        let is_alone = stream.index_users.is_empty() && stream.outline_users.is_empty();
+        if !is_alone || readers[position] == Readers::Mixed {
+            return Some("its vertices are also read by other primitives".to_owned());
+        }
+    }
+    None
+}
+
+fn set_numbers(drafts: &[Draft]) -> Vec<SetNumber> {
+    let mut numbers = BTreeMap::new();
+    let mut set_numbers = Vec::with_capacity(drafts.len());
+    for draft in drafts {
+        let next = numbers.len();
+        set_numbers.push(*numbers.entry(&draft.vertices).or_insert(next));
+    }
+    set_numbers
+}
+
+/// For each draft the number of its group: drafts that share any data, by first draft.
+pub(super) fn group_numbers(drafts: &[Draft], claims: &Claims) -> Vec<usize> {
+    let mut parents: Vec<usize> = (0..drafts.len()).collect();
+    for stream in &claims.streams {
+        let mut users = stream.users();
+        let Some(first) = users.next() else {
+            continue;
+        };
+        for user in users {
+            let (a, b) = (root_of(&mut parents, first), root_of(&mut parents, user));
+            // The smaller number leads, so that groups come in the order of the file.
+            parents[a.max(b)] = a.min(b);
+        }
+    }
+    let mut numbers = BTreeMap::new();
+    (0..drafts.len())
+        .map(|draft| {
+            let next = numbers.len();
+            *numbers.entry(root_of(&mut parents, draft)).or_insert(next)
+        })
+        .collect()
+}
+
+fn root_of(parents: &mut [usize], mut node: usize) -> usize {
+    while parents[node] != node {
+        parents[node] = parents[parents[node]];
+        node = parents[node];
+    }
+    node
+}
+
+/// Why the vertices of an indexed draft must stay, as far as shared data tells.
+pub(super) fn vertex_pin(draft: &Draft, group_count: usize, claims: &Claims) -> Option<Pin> {
+    if let Some(pin) = &draft.pin {
+        return Some(pin.clone());
+    }
+    let pin = |why: String| {
+        Some(Pin {
+            pointer: draft.pointer.clone(),
+            why,
+        })
+    };
+    for position in draft.vertices.iter().filter_map(|r| claims.position(r)) {
+        let stream = &claims.streams[position];
+        if let Some(by) = &stream.taken_by {
+            return pin(format!("they share bytes with {by}"));
+        }
+        if !stream.index_users.is_empty() || !stream.outline_users.is_empty() {
+            return pin("they are also read as vertex numbers".into());
+        }
+    }
+    let outline = draft.outline.as_ref().map(|list| &list.records);
+    if let Some(stream) = outline.and_then(|r| claims.position(r)) {
+        let stream = &claims.streams[stream];
+        if let Some(by) = &stream.taken_by {
+            return pin(format!("the outline shares bytes with {by}"));
+        }
+        if !stream.index_users.is_empty() || !stream.vertex_users.is_empty() {
+            return pin("the outline is also read as something else".into());
+        }
+    }
+    if draft.vertex_count != group_count {
+        return pin("primitives that share data have different numbers of vertices".into());
+    }
+    let width = draft.indices.as_ref().map_or(4, |list| list.records.size);
+    // The largest value of each type restarts a strip, so it is no vertex.
+    let most = match width {
+        1 => usize::from(u8::MAX),
+        2 => usize::from(u16::MAX),
+        _ => usize::MAX,
+    };
+    match draft.vertex_count > most {
+        true => pin(format!(
+            "{}-bit indices do not reach all {} of them",
+            8 * width,
+            draft.vertex_count
+        )),
+        false => None,
+    }
+}

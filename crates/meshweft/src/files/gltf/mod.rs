@@ -1,0 +1,209 @@
+//! glTF 2.0, as JSON with buffers beside it or as one binary file: records permuted in the bytes.
+//!
+//! The JSON is read and never written: what a permutation changes are indices and vertex data, and
+//! those are fixed-size records in buffers. So the JSON of a `.glb` stays byte for byte, and in a
+//! `.gltf` only the text of a changed `data:` URI (or of a renamed buffer file) is replaced.
+//!
+//! Records may be moved only if all who read them agree, so everything that reads bytes is listed
+//! first ([`claims`]). Primitives that share an index accessor share their face order and are one
+//! mesh; primitives that share any data share their vertex order and are one group ([`groups`]).
+//! What cannot be moved is left as it is, with a note that says why.
+//!
+//! Read [`container`] → [`buffers`] → [`accessors`] → [`primitives`] → [`extensions`] → [`claims`] →
+//! [`groups`] → [`entries`] → [`patch`] → [`output`].
+
+mod accessors;
+mod base64;
+mod buffers;
+mod claims;
+mod container;
+mod entries;
+mod extensions;
+mod groups;
+mod json;
+mod output;
+mod patch;
+mod primitives;
+mod records;
+mod uri_spans;
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::error::{FileErrorKind, Place, Problem};
+use super::{Content, Format, MeshEntry, Note, ReadResult};
+use crate::limits::Limits;
+use crate::permutation::{FaceOrder, VertexOrder};
+use accessors::Accessors;
+use buffers::Buffers;
+use claims::Claims;
+use container::Container;
+use entries::{Corners, Entries};
+use json::Object;
+use output::Output;
+use primitives::Primitives;
+
+/// A glTF file whose records can be moved.
+struct Scene {
+    source: PathBuf,
+    container: Container,
+    buffers: Buffers,
+    uri_spans: Vec<Option<Range<usize>>>,
+    entries: Entries,
+}
+
+/// Reads a `.gltf` or `.glb`, and the buffers beside it.
+///
+/// # Complexity
+/// Time O(n log n) and space O(n) in the bytes of the file and its buffers.
+pub(super) fn read(bytes: Vec<u8>, format: Format, path: &Path, limits: &Limits) -> ReadResult {
+    let is_glb = format == Format::Glb;
+    let mut container = match is_glb {
+        true => Container::of_chunks(bytes)?,
+        false => Container::of_text(bytes),
+    };
+    let text = &container.head[container.json.clone()];
+    let value: Value = serde_json::from_slice(text).map_err(|error| {
+        let place = match is_glb {
+            true => Place::Byte(container.json.start),
+            false => Place::File,
+        };
+        FileErrorKind::malformed(format!("the JSON cannot be read: {error}")).at(place)
+    })?;
+    let uri_spans = uri_spans::buffer_uri_spans(text);
+    let root = Object::new(&value, String::new())?;
+    check_version(&root)?;
+    let buffers = Buffers::load(&root, container.binary.take(), path, limits)?;
+    let accessors = Accessors::new(&root, &buffers, is_glb)?;
+    let mut primitives = Primitives::read(&root, &accessors, limits)?;
+    let mut claims = Claims::new(&root, &accessors, &primitives);
+    groups::leave_entangled(&mut primitives, &mut claims);
+    let entries = Entries::new(&primitives.drafts, &claims, &buffers)?;
+    let notes = notes(&root, &primitives, &entries, &buffers);
+    let scene = Scene {
+        source: path.to_owned(),
+        container,
+        buffers,
+        uri_spans,
+        entries,
+    };
+    Ok((Box::new(scene), notes))
+}
+
+fn check_version(root: &Object) -> Result<(), Problem> {
+    let Some(asset) = root.object("asset")? else {
+        return Ok(());
+    };
+    match asset.text("version")? {
+        Some(version) if !version.starts_with("2.") => {
+            let feature = format!("glTF version {version}: only version 2 is read, export it anew");
+            let place = Place::Json(asset.pointer_to("version"));
+            Err(FileErrorKind::unsupported(feature).at(place))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What is left as it is, in the order of the file.
+fn notes(
+    root: &Object,
+    primitives: &Primitives,
+    entries: &Entries,
+    buffers: &Buffers,
+) -> Vec<Note> {
+    let note = |pointer: &str, text: String| Note {
+        place: Place::Json(pointer.to_owned()),
+        text,
+    };
+    let left = primitives.left.iter().map(|left| {
+        let text = format!("left as it is: {}", left.why);
+        (left.ordinal, note(&left.pointer, text))
+    });
+    let pinned = entries.pins.iter().map(|(ordinal, pin)| {
+        let text = format!("the vertices stay where they are: {}", pin.why);
+        (*ordinal, note(&pin.pointer, text))
+    });
+    let mut of_primitives: Vec<(usize, Note)> = left.chain(pinned).collect();
+    of_primitives.sort_by_key(|(ordinal, _)| *ordinal);
+    let mut notes: Vec<Note> = of_primitives.into_iter().map(|(_, note)| note).collect();
+    for (buffer, why) in buffers.unreadable() {
+        notes.push(note(
+            &format!("/buffers/{buffer}/uri"),
+            format!("not read: {why}"),
+        ));
+    }
+    let is_external = |image: &Value| {
+        let uri = image.get("uri").and_then(Value::as_str);
+        uri.is_some_and(|uri| !uri.starts_with("data:"))
+    };
+    let images = root.value("images").and_then(Value::as_array);
+    if images.is_some_and(|images| images.iter().any(is_external)) {
+        let text = "images are files of their own: copy them to the folder of the output";
+        notes.push(note("/images", text.to_owned()));
+    }
+    notes
+}
+
+impl Content for Scene {
+    fn meshes(&self) -> &[MeshEntry] {
+        &self.entries.meshes
+    }
+
+    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {
+        let group = self.entries.meshes[mesh].vertex_group;
+        let mut rewritten = Vec::new();
+        if !faces.is_identity() {
+            match &self.entries.corners[mesh] {
+                Corners::Indices(_) => {
+                    self.entries.meshes[mesh].apply_faces(faces);
+                    rewritten.push(mesh);
+                }
+                Corners::Triples(vertices) => {
+                    let new_to_old = patch::triples(faces);
+                    for records in vertices {
+                        let bytes = self.buffers.bytes_to_change(records.storage);
+                        patch::permute(bytes, records, &new_to_old);
+                    }
+                    self.entries.move_triples(mesh, new_to_old);
+                }
+            }
+        }
+        if let Some(order) = vertices.filter(|order| !order.is_identity()) {
+            let group = &self.entries.groups[group];
+            for records in &group.vertices {
+                let bytes = self.buffers.bytes_to_change(records.storage);
+                patch::permute(bytes, records, order.new_to_old());
+            }
+            let old_to_new = order.permutation().old_to_new();
+            for records in &group.outlines {
+                let bytes = self.buffers.bytes_to_change(records.storage);
+                let numbers = patch::numbers(bytes, records);
+                let renumbered = numbers.iter().map(|&old| old_to_new[old as usize]);
+                patch::write_numbers(bytes, records, renumbered);
+            }
+            for &member in &group.meshes {
+                self.entries.meshes[member].apply_vertices(order);
+            }
+            rewritten.clone_from(&group.meshes);
+        }
+        for mesh in rewritten {
+            if let Corners::Indices(records) = &self.entries.corners[mesh] {
+                let bytes = self.buffers.bytes_to_change(records.storage);
+                let faces = self.entries.meshes[mesh].mesh.faces();
+                patch::write_numbers(bytes, records, faces.as_flattened().iter().copied());
+            }
+        }
+    }
+
+    fn files(&self, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Problem> {
+        let output = Output {
+            source: &self.source,
+            container: &self.container,
+            buffers: &self.buffers,
+            uri_spans: &self.uri_spans,
+        };
+        output.files(path)
+    }
+}

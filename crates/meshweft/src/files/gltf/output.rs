@@ -1,0 +1,140 @@
+//! Where the parts of a glTF go when it is written: its text, and the buffers beside it.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::base64;
+use super::buffers::{Buffers, Source, Storage, percent_encoded};
+use super::container::Container;
+use crate::files::error::{FileErrorKind, Place, Problem};
+
+/// What is needed to write the file again.
+pub(super) struct Output<'a> {
+    /// The path that it was read from.
+    pub(super) source: &'a Path,
+    pub(super) container: &'a Container,
+    pub(super) buffers: &'a Buffers,
+    /// Where each buffer's `uri` stands in the JSON text.
+    pub(super) uri_spans: &'a [Option<Range<usize>>],
+}
+
+impl Output<'_> {
+    /// The files to write when the document goes to `path`, the main one last.
+    pub(super) fn files(&self, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Problem> {
+        let is_same_folder = is_same_folder(self.source, path);
+        let is_in_place = is_same_folder && self.source.file_name() == path.file_name();
+        let mut files = Vec::new();
+        let mut new_uris: Vec<(usize, String)> = Vec::new();
+        for (number, storage) in self.buffers.storages.iter().enumerate() {
+            match &storage.source {
+                Source::Binary => {}
+                Source::Data { buffer, prefix } => {
+                    if storage.is_changed {
+                        let encoded = base64::encode(&storage.bytes);
+                        new_uris.push((*buffer, format!("{prefix}{encoded}")));
+                    }
+                }
+                Source::External(relative) => {
+                    if is_same_folder && !storage.is_changed {
+                        continue;
+                    }
+                    let mut target = path.with_file_name(relative);
+                    if is_same_folder && !is_in_place {
+                        // The source still needs its own buffer.
+                        let name = self.new_name(path, number)?;
+                        let uri = percent_encoded(&name);
+                        let over = self.buffers.buffers_over(number);
+                        new_uris.extend(over.map(|buffer| (buffer, uri.clone())));
+                        target = path.with_file_name(name);
+                    }
+                    if target == path {
+                        let feature = format!(
+                            "{} is the name of a buffer of the file: choose another for the output",
+                            path.display()
+                        );
+                        return Err(FileErrorKind::unsupported(feature).at(Place::File));
+                    }
+                    files.push((target, storage.bytes.clone()));
+                }
+            }
+        }
+        files.push((path.to_owned(), self.main_file(new_uris)));
+        Ok(files)
+    }
+
+    /// A name for a changed buffer in the folder where the old one must stay.
+    fn new_name(&self, path: &Path, storage: usize) -> Result<String, Problem> {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let name = name.ok_or_else(|| {
+            let feature = "the name of a buffer beside the output would be no UTF-8 text: choose \
+                           another name";
+            FileErrorKind::unsupported(feature).at(Place::File)
+        })?;
+        let stem = name.split_once('.').map_or(name, |(stem, _)| stem);
+        // Only the endings are cut: `scene.v2.gltf` stays `scene.v2`.
+        let lower = name.to_ascii_lowercase();
+        let ending = [".gltf.gz", ".glb.gz", ".gltf", ".glb"]
+            .into_iter()
+            .find(|ending| lower.ends_with(ending));
+        let stem = ending.map_or(stem, |ending| &name[..name.len() - ending.len()]);
+        let is_used = |candidate: &str| {
+            let source = Source::External(PathBuf::from(candidate));
+            self.buffers.storages.iter().any(|s| s.source == source)
+        };
+        let is_moved = |s: &&Storage| s.is_changed && matches!(s.source, Source::External(_));
+        let moved = self.buffers.storages.iter().filter(is_moved).count();
+        let plain = format!("{stem}.bin");
+        if moved == 1 && !is_used(&plain) {
+            return Ok(plain);
+        }
+        // Steps of the number of storages keep the names of two of them apart.
+        let step = self.buffers.storages.len();
+        let names = (storage..).step_by(step).map(|n| format!("{stem}.{n}.bin"));
+        Ok(names
+            .into_iter()
+            .find(|name| !is_used(name))
+            .unwrap_or(plain))
+    }
+
+    fn main_file(&self, mut new_uris: Vec<(usize, String)>) -> Vec<u8> {
+        let Container {
+            head, json, tail, ..
+        } = self.container;
+        let mut spliced = Vec::with_capacity(head.len() + tail.len());
+        let mut copied = 0;
+        let span_of = |buffer: usize| self.uri_spans.get(buffer).cloned().flatten();
+        new_uris.sort_unstable_by_key(|(buffer, _)| *buffer);
+        for (buffer, uri) in new_uris {
+            let Some(span) = span_of(buffer) else {
+                continue;
+            };
+            spliced.extend_from_slice(&head[copied..json.start + span.start]);
+            spliced.extend_from_slice(serde_json::Value::from(uri).to_string().as_bytes());
+            copied = json.start + span.end;
+        }
+        spliced.extend_from_slice(&head[copied..]);
+        let binary = self
+            .buffers
+            .storages
+            .iter()
+            .find(|storage| storage.source == Source::Binary);
+        if let Some(binary) = binary {
+            spliced.extend_from_slice(&binary.bytes);
+        }
+        spliced.extend_from_slice(tail);
+        spliced
+    }
+}
+
+/// Whether two files stand in one folder, through links too where the folders are there.
+fn is_same_folder(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| {
+        let parent = path.parent().unwrap_or(Path::new(""));
+        let parent = match parent.as_os_str().is_empty() {
+            true => Path::new("."),
+            false => parent,
+        };
+        parent.canonicalize().unwrap_or_else(|_| parent.to_owned())
+    };
+    folder(a) == folder(b)
+}

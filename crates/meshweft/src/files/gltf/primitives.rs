@@ -1,0 +1,334 @@
+//! The primitives of all meshes: which are triangle lists, what they name, and what their
+//! extensions allow.
+
+use serde_json::Value;
+
+use super::accessors::{
+    Accessor, Accessors, FLOAT, Shape, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT,
+};
+use super::extensions::{self, Restraint};
+use super::json::{Object, whole};
+use super::records::Records;
+use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::limits::{Limits, MAX_FACES, MAX_VERTICES};
+
+/// Something that keeps vertices where they are: the pointer to it, and why.
+#[derive(Debug, Clone)]
+pub(super) struct Pin {
+    pub(super) pointer: String,
+    pub(super) why: String,
+}
+
+/// A list of vertex indices in an accessor.
+#[derive(Debug, Clone)]
+pub(super) struct IndexList {
+    pub(super) pointer: String,
+    pub(super) records: Records,
+    pub(super) is_bounded: bool,
+}
+
+/// A triangle-list primitive whose faces can be re-ordered as far as itself is concerned.
+#[derive(Debug)]
+pub(super) struct Draft {
+    /// Its number among all primitives of the file.
+    pub(super) ordinal: usize,
+    pub(super) pointer: String,
+    pub(super) name: String,
+    pub(super) vertex_count: usize,
+    /// Its corners; without them the vertices come three a face.
+    pub(super) indices: Option<IndexList>,
+    /// POSITION, if it is three floats.
+    pub(super) positions: Option<Records>,
+    /// Every attribute and morph target that has bytes, rising, each once.
+    pub(super) vertices: Vec<Records>,
+    pub(super) outline: Option<IndexList>,
+    /// Why the vertices must stay.
+    pub(super) pin: Option<Pin>,
+    /// The numbers of all accessors it names.
+    pub(super) accessors: Vec<usize>,
+}
+
+/// A primitive that stays as it is.
+#[derive(Debug)]
+pub(super) struct Left {
+    pub(super) ordinal: usize,
+    pub(super) pointer: String,
+    pub(super) why: String,
+    pub(super) accessors: Vec<usize>,
+}
+
+/// All primitives of a file.
+#[derive(Debug, Default)]
+pub(super) struct Primitives {
+    pub(super) drafts: Vec<Draft>,
+    pub(super) left: Vec<Left>,
+    /// Accessors that read the same triangles in one piece and do not mind their order.
+    pub(super) order_free_accessors: Vec<usize>,
+}
+
+impl Primitives {
+    pub(super) fn read(
+        root: &Object,
+        accessors: &Accessors,
+        limits: &Limits,
+    ) -> Result<Self, Problem> {
+        let mut all = Self::default();
+        let mut ordinal = 0;
+        for (number, mesh) in root.objects("meshes")?.enumerate() {
+            let mesh = mesh?;
+            let name = mesh.text("name").ok().flatten();
+            let name = name.map_or_else(|| format!("mesh {number}"), str::to_owned);
+            let of_mesh = extensions::of_mesh(&mesh, accessors, &mut all.order_free_accessors)?;
+            let primitive_count = mesh.array("primitives")?.len();
+            for (index, primitive) in mesh.objects("primitives")?.enumerate() {
+                let reader = Reader {
+                    primitive: primitive?,
+                    accessors,
+                    limits,
+                };
+                let name = match primitive_count {
+                    1 => name.clone(),
+                    _ => format!("{name}, primitive {index}"),
+                };
+                match reader.read(of_mesh.clone())? {
+                    Ok(draft) => all.drafts.push(Draft {
+                        ordinal,
+                        name,
+                        ..draft
+                    }),
+                    Err(left) => all.left.push(Left { ordinal, ..left }),
+                }
+                ordinal += 1;
+            }
+        }
+        Ok(all)
+    }
+}
+
+struct Reader<'a> {
+    primitive: Object<'a>,
+    accessors: &'a Accessors<'a>,
+    limits: &'a Limits,
+}
+
+impl Reader<'_> {
+    fn read(self, mut restraint: Restraint) -> Result<Result<Draft, Left>, Problem> {
+        let pointer = self.primitive.pointer().to_owned();
+        let left = |why: String| Left {
+            ordinal: 0,
+            accessors: self.named_accessors(),
+            pointer: pointer.clone(),
+            why,
+        };
+        match self.primitive.number("mode")?.unwrap_or(4) {
+            4 => {}
+            0 => return Ok(Err(left("it is drawn as points".into()))),
+            1..=3 => return Ok(Err(left("it is drawn as lines".into()))),
+            5 | 6 => {
+                let why = "it is a strip or fan, whose faces depend on those before";
+                return Ok(Err(left(why.into())));
+            }
+            mode => return Err(self.primitive.problem(format!("there is no mode {mode}"))),
+        }
+        let outline = extensions::of_primitive(&self.primitive, self.accessors, &mut restraint)?;
+        // What is compressed or of unknown build is not looked into.
+        if let Some(why) = restraint.left {
+            return Ok(Err(left(why)));
+        }
+        let (position, vertices) = self.read_attributes(&mut restraint)?;
+        let indices = self.read_indices(&mut restraint)?;
+        let vertex_count = position.as_ref().map_or(0, |position| position.count);
+        if indices.is_none() && vertex_count % 3 != 0 {
+            restraint.leave(format!("{vertex_count} vertices are not three a face"));
+        }
+        // Without indices a face order moves the vertices.
+        if let (false, Some(pin)) = (self.primitive.has("indices"), &restraint.pin) {
+            restraint
+                .left
+                .get_or_insert(format!("{}: {}", pin.pointer, pin.why));
+        }
+        if let Some(why) = restraint.left {
+            return Ok(Err(left(why)));
+        }
+        self.check_limits(vertex_count, indices.as_ref())?;
+        let positions = position.filter(|p| p.component == FLOAT && p.shape == Shape::VEC3);
+        Ok(Ok(Draft {
+            ordinal: 0,
+            name: String::new(),
+            vertex_count,
+            indices,
+            positions: positions.and_then(|position| position.records),
+            vertices,
+            outline,
+            pin: restraint.pin,
+            accessors: self.named_accessors(),
+            pointer,
+        }))
+    }
+
+    /// POSITION, and the records of all attributes and morph targets.
+    fn read_attributes(
+        &self,
+        restraint: &mut Restraint,
+    ) -> Result<(Option<Accessor>, Vec<Records>), Problem> {
+        let attributes = self.primitive.object("attributes")?;
+        let attributes =
+            attributes.ok_or_else(|| self.primitive.problem("attributes is missing"))?;
+        let position = match attributes.number("POSITION")? {
+            Some(number) => {
+                let user = attributes.pointer_to("POSITION");
+                self.accessors.resolve(number, &user)?
+            }
+            // An extension may bring the positions.
+            None if self.primitive.has("extensions") => {
+                restraint.leave("it has no POSITION");
+                return Ok((None, Vec::new()));
+            }
+            None => return Err(attributes.problem("POSITION is missing")),
+        };
+        if position.records.is_none() && !position.is_compressed {
+            restraint.leave("its POSITION has no buffer view");
+        }
+        let mut vertices = Vec::new();
+        self.read_set(&attributes, &position, restraint, &mut vertices)?;
+        for target in self.primitive.objects("targets")? {
+            self.read_set(&target?, &position, restraint, &mut vertices)?;
+        }
+        vertices.sort_unstable();
+        vertices.dedup();
+        Ok((Some(position), vertices))
+    }
+
+    /// The accessors of one set: the attributes, or one morph target.
+    fn read_set(
+        &self,
+        set: &Object,
+        position: &Accessor,
+        restraint: &mut Restraint,
+        vertices: &mut Vec<Records>,
+    ) -> Result<(), Problem> {
+        for name in set.names() {
+            let pointer = set.pointer_to(name);
+            let accessor = self
+                .accessors
+                .resolve(set.required_number(name)?, &pointer)?;
+            if accessor.count != position.count {
+                return Err(super::json::malformed(
+                    pointer,
+                    format!(
+                        "{} has {} elements, but POSITION has {}",
+                        accessor.pointer, accessor.count, position.count
+                    ),
+                ));
+            }
+            self.restrain(&accessor, restraint);
+            if accessor.is_sparse {
+                restraint.pin(&accessor.pointer, "sparse data is not moved");
+            }
+            vertices.extend(accessor.records);
+        }
+        Ok(())
+    }
+
+    fn read_indices(&self, restraint: &mut Restraint) -> Result<Option<IndexList>, Problem> {
+        let Some(number) = self.primitive.number("indices")? else {
+            return Ok(None);
+        };
+        let user = self.primitive.pointer_to("indices");
+        let accessor = self.accessors.resolve(number, &user)?;
+        if !is_index_type(&accessor) {
+            let problem = format!(
+                "indices must be single unsigned bytes, shorts or ints: {} has component type {}",
+                accessor.pointer, accessor.component
+            );
+            return Err(super::json::malformed(user, problem));
+        }
+        self.restrain(&accessor, restraint);
+        if accessor.is_sparse {
+            restraint.leave("its indices are sparse");
+        }
+        if accessor.is_strided {
+            restraint.leave("its indices have a byteStride");
+        }
+        if accessor.count % 3 != 0 {
+            restraint.leave(format!("{} indices are not three a face", accessor.count));
+        }
+        let Some(records) = accessor.records else {
+            restraint.leave("its indices have no buffer view");
+            return Ok(None);
+        };
+        Ok(Some(IndexList {
+            records,
+            is_bounded: accessor.is_bounded,
+            pointer: accessor.pointer,
+        }))
+    }
+
+    fn restrain(&self, accessor: &Accessor, restraint: &mut Restraint) {
+        if accessor.is_compressed {
+            restraint.leave("it is compressed by meshopt: decompress it first");
+        }
+        if accessor.is_fixed {
+            restraint.leave("its data is not in the binary chunk of the GLB");
+        }
+        if let Some(name) = &accessor.unknown_extension {
+            restraint.pin(
+                &accessor.pointer,
+                format!("the extension {name} is not known and may depend on their order"),
+            );
+        }
+    }
+
+    fn check_limits(
+        &self,
+        vertex_count: usize,
+        indices: Option<&IndexList>,
+    ) -> Result<(), Problem> {
+        let corners = indices.map_or(vertex_count, |indices| indices.records.count);
+        for (what, found, limit) in [
+            (
+                "vertices",
+                vertex_count,
+                self.limits.vertices.min(MAX_VERTICES),
+            ),
+            ("faces", corners / 3, self.limits.faces.min(MAX_FACES)),
+        ] {
+            if found > limit {
+                return Err(FileErrorKind::OverLimit {
+                    what,
+                    found: found as u64,
+                    limit: limit as u64,
+                }
+                .at(Place::Json(self.primitive.pointer().to_owned())));
+            }
+        }
+        Ok(())
+    }
+
+    /// The numbers of all accessors that the primitive names, sound or not.
+    fn named_accessors(&self) -> Vec<usize> {
+        let set = |value: &Value| -> Vec<usize> {
+            let fields = value.as_object().into_iter().flat_map(|o| o.values());
+            fields.filter_map(whole).collect()
+        };
+        let mut numbers: Vec<usize> = Vec::new();
+        numbers.extend(self.primitive.value("indices").and_then(whole));
+        numbers.extend(
+            self.primitive
+                .value("attributes")
+                .map(set)
+                .unwrap_or_default(),
+        );
+        let targets = self.primitive.value("targets").and_then(Value::as_array);
+        numbers.extend(targets.into_iter().flatten().flat_map(set));
+        let extensions = self.primitive.value("extensions");
+        let outline = extensions.and_then(|e| e.get("CESIUM_primitive_outline"));
+        numbers.extend(outline.and_then(|o| o.get("indices")).and_then(whole));
+        numbers
+    }
+}
+
+pub(super) fn is_index_type(accessor: &Accessor) -> bool {
+    accessor.shape == Shape::SCALAR
+        && [UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT].contains(&accessor.component)
+}

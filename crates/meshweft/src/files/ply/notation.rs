@@ -1,0 +1,118 @@
+//! Writing the corners of a PLY face.
+
+use std::ops::Range;
+
+use super::header::{Element, Encoding, Header, Kind, Scalar};
+use super::list_length;
+use super::rows::{Ascii, Binary, Row, Rows};
+use crate::files::splice::{Change, Notation, write_corners};
+use crate::files::text::Tokens;
+
+/// How corners stand in face rows.
+pub(super) struct PlyNotation {
+    encoding: Encoding,
+    /// The face element, and which of its properties is the list of corners.
+    face: Option<(Element, usize)>,
+}
+
+impl PlyNotation {
+    pub(super) fn new(header: &Header) -> Self {
+        let face = header.element("face");
+        let face = face.and_then(|face| Some((face.clone(), face.corner_list()?)));
+        let encoding = header.encoding;
+        Self { encoding, face }
+    }
+
+    /// Where the corners of a row start, how many there are, and their type.
+    fn corners<R: Rows>(&self, mut rows: R) -> Option<(usize, usize, Scalar)> {
+        let (element, list) = self.face.as_ref()?;
+        let row = Row { element, number: 0 };
+        for (number, property) in element.properties.iter().enumerate() {
+            // The row was read before: nothing can be wrong with it now.
+            match property.kind {
+                Kind::Scalar(scalar) => rows.skip(1, scalar, &row).ok()?,
+                Kind::List { count, item } => {
+                    let count = list_length(&mut rows, count, &row).ok()?;
+                    if number == *list {
+                        return Some((rows.at(), count, item));
+                    }
+                    rows.skip(count, item, &row).ok()?;
+                }
+            }
+        }
+        None
+    }
+
+    fn write_binary<const BIG: bool>(
+        record: &[u8],
+        at: (usize, usize, Scalar),
+        change: Change<'_>,
+        out: &mut Vec<u8>,
+    ) {
+        let (start, count, item) = at;
+        let size = item.size();
+        let copy_start = out.len();
+        out.extend_from_slice(record);
+        for corner in 0..count {
+            let turned = start + change.turned(corner, count) * size;
+            let bytes = &record[turned..turned + size];
+            let old = unsigned::<BIG>(bytes);
+            let new = change.old_to_new.get(old);
+            let renewed;
+            let bytes = match new {
+                Some(&new) if BIG => {
+                    renewed = new.to_be_bytes();
+                    &renewed[4 - size..]
+                }
+                Some(&new) => {
+                    renewed = new.to_le_bytes();
+                    &renewed[..size]
+                }
+                None => bytes,
+            };
+            let place = copy_start + start + corner * size;
+            out[place..place + size].copy_from_slice(bytes);
+        }
+    }
+}
+
+/// An index of up to four bytes; negative ones were refused when the file was read.
+#[inline]
+fn unsigned<const BIG: bool>(bytes: &[u8]) -> usize {
+    let append = |number: usize, &byte: &u8| number << 8 | usize::from(byte);
+    match BIG {
+        true => bytes.iter().fold(0, append),
+        false => bytes.iter().rev().fold(0, append),
+    }
+}
+
+impl Notation for PlyNotation {
+    fn write_face(
+        &self,
+        _number: usize,
+        record: &[u8],
+        change: Change<'_>,
+        scratch: &mut Vec<Range<usize>>,
+        out: &mut Vec<u8>,
+    ) {
+        let corners = match self.encoding {
+            Encoding::Ascii => self.corners(Ascii::new(record, 0)),
+            Encoding::LittleEndian => self.corners(Binary::<false>::new(record, 0)),
+            Encoding::BigEndian => self.corners(Binary::<true>::new(record, 0)),
+        };
+        let Some(corners) = corners else {
+            return out.extend_from_slice(record);
+        };
+        match self.encoding {
+            Encoding::Ascii => {
+                let (start, count, _) = corners;
+                scratch.clear();
+                scratch.extend(Tokens::plain(record, start).take(count));
+                let vertex_of = |number| usize::try_from(number).ok();
+                write_corners(record, scratch, change, 0, vertex_of, out);
+            }
+            Encoding::LittleEndian => Self::write_binary::<false>(record, corners, change, out),
+            Encoding::BigEndian => Self::write_binary::<true>(record, corners, change, out),
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! Reading the rows of a PLY file, ascii or binary, value by value.
+
+use super::header::{Element, Scalar};
+use crate::files::error::FileErrorKind;
+use crate::files::text::{Tokens, coordinate, is_blank, is_line_end, shown, whole_number};
+
+/// What is wrong, and the byte where.
+pub(super) struct Fault {
+    pub(super) at: usize,
+    pub(super) kind: FileErrorKind,
+}
+
+/// The row that is being read, for errors.
+#[derive(Clone, Copy)]
+pub(super) struct Row<'a> {
+    pub(super) element: &'a Element,
+    pub(super) number: usize,
+}
+
+impl Row<'_> {
+    #[cold]
+    pub(super) fn malformed(&self, at: usize, text: impl std::fmt::Display) -> Fault {
+        let text = format!("{} {}: {text}", self.element.name, self.number);
+        let kind = FileErrorKind::malformed(text);
+        Fault { at, kind }
+    }
+
+    #[cold]
+    fn truncated(&self, at: usize) -> Fault {
+        let Element { name, count, .. } = self.element;
+        let kind = FileErrorKind::truncated(format!("{name} {} of {count}", self.number));
+        Fault { at, kind }
+    }
+}
+
+/// A stream of values.
+pub(super) trait Rows {
+    /// Where the next value is looked for.
+    fn at(&self) -> usize;
+    /// Moves to the first byte of the next row, which is returned.
+    fn start_row(&mut self) -> usize;
+    /// The end of the row's last value, after looking whether the row ends there.
+    fn end_row(&mut self, row: &Row<'_>) -> Result<usize, Fault>;
+    /// Reads past `count` values.
+    fn skip(&mut self, count: usize, scalar: Scalar, row: &Row<'_>) -> Result<(), Fault>;
+    /// A coordinate.
+    fn float(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<f32, Fault>;
+    /// A whole number; the type is not a float.
+    fn whole(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault>;
+    /// How many rows of the element can be there, by the bytes that are left.
+    fn at_most(&self, element: &Element) -> usize;
+}
+
+/// Rows as lines of text.
+pub(super) struct Ascii<'a> {
+    source: &'a [u8],
+    tokens: Tokens<'a>,
+}
+
+impl<'a> Ascii<'a> {
+    pub(super) fn new(source: &'a [u8], at: usize) -> Self {
+        Self {
+            source,
+            tokens: Tokens::plain(source, at),
+        }
+    }
+
+    #[inline]
+    fn token(&mut self, row: &Row<'_>) -> Result<&'a [u8], Fault> {
+        match self.tokens.next() {
+            Some(token) => Ok(&self.source[token]),
+            None => Err(row.truncated(self.source.len())),
+        }
+    }
+}
+
+impl Rows for Ascii<'_> {
+    fn at(&self) -> usize {
+        self.tokens.at()
+    }
+
+    #[inline]
+    fn start_row(&mut self) -> usize {
+        let source = self.source;
+        let gap = source[self.tokens.at()..].iter();
+        let gap = gap.take_while(|&&byte| is_blank(byte) || is_line_end(byte));
+        let start = self.tokens.at() + gap.count();
+        self.tokens = Tokens::plain(source, start);
+        start
+    }
+
+    #[inline]
+    fn end_row(&mut self, row: &Row<'_>) -> Result<usize, Fault> {
+        let end = self.tokens.at();
+        // A line with more values than declared would shift all rows behind it.
+        let rest = self.source[end..].iter();
+        match rest.copied().find(|&byte| !is_blank(byte)) {
+            Some(byte) if !is_line_end(byte) => {
+                Err(row.malformed(end, "more values on its line than the header declares"))
+            }
+            _ => Ok(end),
+        }
+    }
+
+    #[inline]
+    fn skip(&mut self, count: usize, _scalar: Scalar, row: &Row<'_>) -> Result<(), Fault> {
+        for _ in 0..count {
+            self.token(row)?;
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn float(&mut self, _scalar: Scalar, row: &Row<'_>) -> Result<f32, Fault> {
+        let token = self.token(row)?;
+        coordinate(token).ok_or_else(|| {
+            let text = format!("{} is not a coordinate: write a number", shown(token));
+            row.malformed(self.tokens.at(), text)
+        })
+    }
+
+    #[inline]
+    fn whole(&mut self, _scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault> {
+        let token = self.token(row)?;
+        whole_number(token).ok_or_else(|| {
+            let text = format!("{} is not a whole number", shown(token));
+            row.malformed(self.tokens.at(), text)
+        })
+    }
+
+    fn at_most(&self, element: &Element) -> usize {
+        // Each value takes a digit and what separates it from the next.
+        let smallest = element.properties.len() * 2;
+        element
+            .count
+            .min((self.source.len() - self.at()) / smallest.max(1) + 1)
+    }
+}
+
+/// Rows as bytes.
+pub(super) struct Binary<'a, const BIG: bool> {
+    source: &'a [u8],
+    at: usize,
+}
+
+impl<'a, const BIG: bool> Binary<'a, BIG> {
+    pub(super) fn new(source: &'a [u8], at: usize) -> Self {
+        Self { source, at }
+    }
+
+    #[inline]
+    fn take<const SIZE: usize>(&mut self, row: &Row<'_>) -> Result<[u8; SIZE], Fault> {
+        let Some(bytes) = self.source[self.at..].first_chunk::<SIZE>() else {
+            return Err(row.truncated(self.source.len()));
+        };
+        self.at += SIZE;
+        Ok(*bytes)
+    }
+}
+
+/// Reads a number of a type, in the byte order of the file.
+macro_rules! number {
+    ($rows:expr, $row:expr, $number:ty) => {{
+        let bytes = $rows.take($row)?;
+        match BIG {
+            true => <$number>::from_be_bytes(bytes),
+            false => <$number>::from_le_bytes(bytes),
+        }
+    }};
+}
+
+impl<const BIG: bool> Rows for Binary<'_, BIG> {
+    #[inline]
+    fn at(&self) -> usize {
+        self.at
+    }
+
+    #[inline]
+    fn start_row(&mut self) -> usize {
+        self.at
+    }
+
+    #[inline]
+    fn end_row(&mut self, _row: &Row<'_>) -> Result<usize, Fault> {
+        Ok(self.at)
+    }
+
+    #[inline]
+    fn skip(&mut self, count: usize, scalar: Scalar, row: &Row<'_>) -> Result<(), Fault> {
+        let left = self.source.len() - self.at;
+        match count.checked_mul(scalar.size()) {
+            Some(size) if size <= left => {
+                self.at += size;
+                Ok(())
+            }
+            _ => Err(row.truncated(self.source.len())),
+        }
+    }
+
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_precision_loss,
+        reason = "positions are single precision in a mesh, whatever the file has"
+    )]
+    fn float(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<f32, Fault> {
+        Ok(match scalar {
+            Scalar::F32 => number!(self, row, f32),
+            Scalar::F64 => number!(self, row, f64) as f32,
+            whole => self.whole(whole, row)? as f32,
+        })
+    }
+
+    #[inline]
+    fn whole(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault> {
+        Ok(match scalar {
+            Scalar::I8 => number!(self, row, i8).into(),
+            Scalar::U8 => number!(self, row, u8).into(),
+            Scalar::I16 => number!(self, row, i16).into(),
+            Scalar::U16 => number!(self, row, u16).into(),
+            Scalar::I32 => number!(self, row, i32).into(),
+            Scalar::U32 => number!(self, row, u32).into(),
+            // The header reader refuses floats where whole numbers are needed.
+            Scalar::F32 | Scalar::F64 => return Err(row.malformed(self.at, "a float as a count")),
+        })
+    }
+
+    fn at_most(&self, element: &Element) -> usize {
+        let left = self.source.len() - self.at;
+        element.count.min(left / element.smallest_row().max(1) + 1)
+    }
+}

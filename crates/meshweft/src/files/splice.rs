@@ -1,0 +1,341 @@
+//! Files that are a sequence of records: copied byte by byte, records permuted among their places.
+//!
+//! A *slot* is where a record stands. Whatever is between the slots (line ends, comments, headers,
+//! elements that are not understood) is copied; into each slot goes the record that the order puts
+//! there. The source is never changed: orders add up, and the output is spliced when it is asked
+//! for.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::error::Problem;
+use super::records::Spans;
+use super::text::{leading_number, push_number};
+use super::{Content, MeshEntry};
+use crate::limits::index32;
+use crate::permutation::{FaceOrder, VertexOrder};
+
+/// What happens to the corners of a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Change<'a> {
+    /// As [`FaceOrder::rotation`].
+    pub(super) rotation: usize,
+    /// The new number of each vertex; empty if they keep theirs.
+    pub(super) old_to_new: &'a [u32],
+}
+
+impl Change<'_> {
+    fn is_nothing(&self) -> bool {
+        self.rotation == 0 && self.old_to_new.is_empty()
+    }
+
+    /// Which of the `count` old corners the new corner `corner` is.
+    #[inline]
+    pub(super) fn turned(&self, corner: usize, count: usize) -> usize {
+        let turned = corner + self.rotation;
+        // Without a division for most corners.
+        if turned < count {
+            turned
+        } else {
+            turned % count
+        }
+    }
+}
+
+/// How a format writes the corners of a face record.
+pub(super) trait Notation {
+    /// Appends source record `number`, whose bytes are `record`, with its corners changed.
+    ///
+    /// `scratch` is there to be reused; what it holds means nothing.
+    fn write_face(
+        &self,
+        number: usize,
+        record: &[u8],
+        change: Change<'_>,
+        scratch: &mut Vec<Range<usize>>,
+        out: &mut Vec<u8>,
+    );
+
+    /// Appends line `number` of those that name vertices and stay where they are.
+    fn write_line(
+        &self,
+        _number: usize,
+        line: &[u8],
+        _change: Change<'_>,
+        _scratch: &mut Vec<Range<usize>>,
+        out: &mut Vec<u8>,
+    ) {
+        out.extend_from_slice(line);
+    }
+}
+
+/// Appends `record` with the tokens at `corners` turned and the vertex number that each starts
+/// with renewed; all else is copied.
+///
+/// `base` is the number of the first vertex; `vertex_of` resolves a number as it is written.
+#[inline]
+pub(super) fn write_corners(
+    record: &[u8],
+    corners: &[Range<usize>],
+    change: Change<'_>,
+    base: u64,
+    vertex_of: impl Fn(i64) -> Option<usize>,
+    out: &mut Vec<u8>,
+) {
+    let mut copied = 0;
+    for (position, slot) in corners.iter().enumerate() {
+        out.extend_from_slice(&record[copied..slot.start]);
+        copied = slot.end;
+        let turned = change.turned(position, corners.len());
+        let token = &record[corners[turned].clone()];
+        let renewed = leading_number(token).and_then(|(number, length)| {
+            let old = vertex_of(number)?;
+            let new = *change.old_to_new.get(old)?;
+            (new as usize != old).then_some((u64::from(new), length))
+        });
+        match renewed {
+            Some((new, length)) => {
+                push_number(out, new + base);
+                out.extend_from_slice(&token[length..]);
+            }
+            None => out.extend_from_slice(token),
+        }
+    }
+    out.extend_from_slice(&record[copied..]);
+}
+
+/// A file of records, and the orders its records were put in.
+pub(super) struct RecordFile<N> {
+    pub(super) source: Vec<u8>,
+    pub(super) vertices: Spans,
+    pub(super) faces: Spans,
+    /// Rows that hang on the faces one by one and go where they go.
+    pub(super) companions: Vec<Spans>,
+    /// Lines that name vertices and stay where they are.
+    pub(super) lines: Spans,
+    pub(super) notation: N,
+    /// One mesh, or none if the file has no faces.
+    pub(super) entries: Vec<MeshEntry>,
+    pub(super) orders: Orders,
+}
+
+/// All orders that were applied, as one; empty where nothing was moved or turned.
+#[derive(Debug, Default)]
+pub(super) struct Orders {
+    records: Vec<u32>,
+    rotations: Vec<u8>,
+    vertices: Vec<u32>,
+}
+
+impl Orders {
+    fn add_faces(&mut self, order: &FaceOrder) {
+        if order.is_identity() {
+            return;
+        }
+        if !self.rotations.is_empty() || !order.rotations().is_empty() {
+            let earlier = |old: u32| self.rotations.get(old as usize).copied().unwrap_or(0);
+            let turned = |(new, &old)| (earlier(old) + order.rotation(new)) % 3;
+            self.rotations = order.new_to_old().iter().enumerate().map(turned).collect();
+        }
+        self.records = composed(&self.records, order.new_to_old());
+    }
+
+    fn add_vertices(&mut self, order: &VertexOrder) {
+        if !order.is_identity() {
+            self.vertices = composed(&self.vertices, order.new_to_old());
+        }
+    }
+}
+
+/// `new_to_old` after `earlier`, which is empty if it changes nothing.
+fn composed(earlier: &[u32], new_to_old: &[u32]) -> Vec<u32> {
+    if earlier.is_empty() {
+        return new_to_old.to_vec();
+    }
+    let through = new_to_old.iter().map(|&middle| earlier[middle as usize]);
+    through.collect()
+}
+
+/// The entry of `order`, or `slot` itself where the order is empty.
+fn record_in(order: &[u32], slot: usize) -> usize {
+    order.get(slot).map_or(slot, |&record| record as usize)
+}
+
+impl<N: Notation> RecordFile<N> {
+    fn bytes(&self) -> Vec<u8> {
+        let Orders {
+            records,
+            rotations,
+            vertices,
+        } = &self.orders;
+        let source = self.source.as_slice();
+        let mut old_to_new = vec![0; vertices.len()];
+        for (new, &old) in vertices.iter().enumerate() {
+            old_to_new[old as usize] = index32(new);
+        }
+        let old_to_new = old_to_new.as_slice();
+        let mut layers = Vec::new();
+        if !records.is_empty() || !vertices.is_empty() {
+            let mut scratch = Vec::new();
+            layers.push(Layer::new(&self.faces, move |slot, out| {
+                let number = record_in(records, slot);
+                let rotation = usize::from(rotations.get(slot).copied().unwrap_or(0));
+                let change = Change {
+                    rotation,
+                    old_to_new,
+                };
+                let record = &source[self.faces.span(number)];
+                match change.is_nothing() {
+                    true => out.extend_from_slice(record),
+                    false => self
+                        .notation
+                        .write_face(number, record, change, &mut scratch, out),
+                }
+            }));
+            let companions = self.companions.iter();
+            layers.extend(companions.map(|spans| {
+                Layer::new(spans, move |slot, out| {
+                    out.extend_from_slice(&source[spans.span(record_in(records, slot))]);
+                })
+            }));
+        }
+        if !vertices.is_empty() {
+            layers.push(Layer::new(&self.vertices, move |slot, out| {
+                let span = self.vertices.span(record_in(vertices, slot));
+                out.extend_from_slice(&source[span]);
+            }));
+            let mut scratch = Vec::new();
+            layers.push(Layer::new(&self.lines, move |slot, out| {
+                let line = &source[self.lines.span(slot)];
+                let change = Change {
+                    rotation: 0,
+                    old_to_new,
+                };
+                self.notation
+                    .write_line(slot, line, change, &mut scratch, out);
+            }));
+        }
+        spliced(source, layers)
+    }
+}
+
+impl<N: Notation> Content for RecordFile<N> {
+    fn meshes(&self) -> &[MeshEntry] {
+        &self.entries
+    }
+
+    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {
+        let entry = &mut self.entries[mesh];
+        self.orders.add_faces(faces);
+        entry.apply_faces(faces);
+        if let Some(vertices) = vertices {
+            self.orders.add_vertices(vertices);
+            entry.apply_vertices(vertices);
+        }
+    }
+
+    fn files(&self, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Problem> {
+        Ok(vec![(path.to_owned(), self.bytes())])
+    }
+}
+
+/// Appends what goes into a slot, given by its number.
+type WriteSlot<'a> = dyn FnMut(usize, &mut Vec<u8>) + 'a;
+
+/// The slots of one kind of record, and what goes into each.
+struct Layer<'a> {
+    slots: &'a Spans,
+    next: usize,
+    write: Box<WriteSlot<'a>>,
+}
+
+impl<'a> Layer<'a> {
+    fn new(slots: &'a Spans, write: impl FnMut(usize, &mut Vec<u8>) + 'a) -> Self {
+        Self {
+            slots,
+            next: 0,
+            write: Box::new(write),
+        }
+    }
+
+    fn next_start(&self) -> usize {
+        self.slots.start(self.next)
+    }
+}
+
+/// The source with each slot of each layer filled anew. Slots do not overlap.
+fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>) -> Vec<u8> {
+    // New numbers may have more digits than the old ones, but not many have.
+    let mut out = Vec::with_capacity(source.len() + source.len() / 16);
+    let mut copied = 0;
+    loop {
+        // Slots come in long stretches of one kind: find the layer whose turn it is, and stay with
+        // it until another one's next slot comes first.
+        let starts = layers.iter().map(Layer::next_start).enumerate();
+        let Some((turn, start)) = starts.min_by_key(|&(_, start)| start) else {
+            break;
+        };
+        if start == usize::MAX {
+            break;
+        }
+        let others = layers
+            .iter()
+            .enumerate()
+            .filter(|&(other, _)| other != turn);
+        let until = others.map(|(_, layer)| layer.next_start()).min();
+        let until = until.unwrap_or(usize::MAX);
+        let layer = &mut layers[turn];
+        while layer.next < layer.slots.len() {
+            let slot = layer.slots.span(layer.next);
+            if slot.start > until {
+                break;
+            }
+            out.extend_from_slice(&source[copied..slot.start]);
+            (layer.write)(layer.next, &mut out);
+            copied = slot.end;
+            layer.next += 1;
+        }
+    }
+    out.extend_from_slice(&source[copied..]);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orders_add_up() {
+        use crate::Permutation;
+        let order = |new_to_old, rotations| {
+            FaceOrder::new(Permutation::new(new_to_old).unwrap(), rotations).unwrap()
+        };
+        let (first, second) = (
+            order(vec![2, 0, 1], vec![1, 0, 2]),
+            order(vec![1, 2, 0], vec![2, 1, 1]),
+        );
+        let mut orders = Orders::default();
+        orders.add_faces(&first);
+        orders.add_faces(&second);
+        let faces = [[0, 1, 2], [3, 4, 5], [6, 7, 8]];
+        let both = order(orders.records, orders.rotations);
+        assert_eq!(both.apply(&faces), second.apply(&first.apply(&faces)));
+    }
+
+    #[test]
+    fn gaps_stay_between_layers() {
+        let source = b"<aa|B|cc|D>";
+        let (mut small, mut large) = (Spans::new(), Spans::new());
+        small.push(1..3).unwrap();
+        large.push(4..5).unwrap();
+        small.push(6..8).unwrap();
+        large.push(9..10).unwrap();
+        let layers = vec![
+            Layer::new(&small, |slot, out| out.push([b'c', b'a'][slot])),
+            Layer::new(&large, |slot, out| {
+                out.extend_from_slice([b"DD", b"BB"][slot])
+            }),
+        ];
+        assert_eq!(spliced(source, layers), b"<c|DD|a|BB>");
+    }
+}

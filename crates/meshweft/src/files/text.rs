@@ -1,0 +1,204 @@
+//! Bytes of text files: tokens, numbers, line numbers.
+//!
+//! Text formats are read as bytes: names and comments may be in any encoding, and nothing is
+//! copied to look at it. A line ends with `\n`, `\r\n` or `\r`.
+
+use std::ops::Range;
+
+/// Whether `byte` separates tokens within a line.
+#[inline]
+pub(super) fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | 0x0b | 0x0c)
+}
+
+/// Whether `byte` ends a line.
+#[inline]
+pub(super) fn is_line_end(byte: u8) -> bool {
+    matches!(byte, b'\n' | b'\r')
+}
+
+/// The first line end at or after `at`, or the end of the text.
+#[inline]
+pub(super) fn line_end(text: &[u8], at: usize) -> usize {
+    let rest = &text[at..];
+    at + rest
+        .iter()
+        .position(|&byte| is_line_end(byte))
+        .unwrap_or(rest.len())
+}
+
+/// The line, from 1, that the byte at `offset` stands on. O(offset): for errors and notes only.
+pub(super) fn line_of(text: &[u8], offset: usize) -> usize {
+    let before = &text[..offset.min(text.len())];
+    let ends = before.iter().enumerate().filter(|&(at, &byte)| match byte {
+        b'\n' => true,
+        // The `\n` of a `\r\n` is the one that counts.
+        b'\r' => text.get(at + 1) != Some(&b'\n'),
+        _ => false,
+    });
+    1 + ends.count()
+}
+
+/// The span from `start` to the last byte before `end` that is neither blank nor a line end.
+#[inline]
+pub(super) fn trimmed(text: &[u8], start: usize, end: usize) -> Range<usize> {
+    let solid = |&byte: &u8| !is_blank(byte) && !is_line_end(byte);
+    let length = text[start..end].iter().rposition(solid);
+    start..start + length.map_or(0, |last| last + 1)
+}
+
+/// The tokens of a stretch of text, as spans; line ends separate them as blanks do.
+#[derive(Debug, Clone)]
+pub(super) struct Tokens<'a> {
+    text: &'a [u8],
+    at: usize,
+    /// Whether `#` ends the stretch, and `\` before a line end is a blank.
+    marks: bool,
+}
+
+impl<'a> Tokens<'a> {
+    /// The tokens of `text` from `at` on.
+    #[inline]
+    pub(super) fn plain(text: &'a [u8], at: usize) -> Self {
+        let marks = false;
+        Self { text, at, marks }
+    }
+
+    /// The tokens of one statement: it ends at a `#`, and goes on over lines that end in `\`.
+    #[inline]
+    pub(super) fn of_statement(text: &'a [u8], at: usize) -> Self {
+        let marks = true;
+        Self { text, at, marks }
+    }
+
+    /// Where the next look begins.
+    #[inline]
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    /// Whether the byte at `at` is a blank, a line end, or a continuation mark.
+    #[inline]
+    fn separates(&self, at: usize) -> bool {
+        match self.text[at] {
+            b'\\' => self.marks && self.text.get(at + 1).is_some_and(|&b| is_line_end(b)),
+            byte => is_blank(byte) || is_line_end(byte),
+        }
+    }
+}
+
+impl Iterator for Tokens<'_> {
+    type Item = Range<usize>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Range<usize>> {
+        let text = self.text;
+        let mut at = self.at;
+        while at < text.len() && self.separates(at) {
+            at += 1;
+        }
+        let start = at;
+        while at < text.len() && !self.separates(at) && !(self.marks && text[at] == b'#') {
+            at += 1;
+        }
+        self.at = at;
+        (at > start).then_some(start..at)
+    }
+}
+
+/// The whole number that `text` starts with, and how many bytes it takes.
+///
+/// `None` if there is no digit, or the number does not fit in 64 bits.
+#[inline]
+pub(super) fn leading_number(text: &[u8]) -> Option<(i64, usize)> {
+    let sign_length = usize::from(matches!(text.first(), Some(b'-' | b'+')));
+    let mut value = 0_i64;
+    let mut length = sign_length;
+    while let Some(digit) = text.get(length).map(|byte| byte.wrapping_sub(b'0')) {
+        if digit > 9 {
+            break;
+        }
+        value = value.checked_mul(10)?.checked_add(i64::from(digit))?;
+        length += 1;
+    }
+    if length == sign_length {
+        return None;
+    }
+    let signed = if text[0] == b'-' { -value } else { value };
+    Some((signed, length))
+}
+
+/// The whole number that all of `token` is.
+#[inline]
+pub(super) fn whole_number(token: &[u8]) -> Option<i64> {
+    let (value, length) = leading_number(token)?;
+    (length == token.len()).then_some(value)
+}
+
+/// The coordinate that `token` is; `nan` and `inf` are coordinates too.
+#[inline]
+pub(super) fn coordinate(token: &[u8]) -> Option<f32> {
+    std::str::from_utf8(token).ok()?.parse().ok()
+}
+
+/// Appends `number` in decimal digits.
+#[inline]
+pub(super) fn push_number(out: &mut Vec<u8>, mut number: u64) {
+    let mut digits = [0_u8; 20];
+    let mut first = digits.len();
+    loop {
+        first -= 1;
+        // A digit fits in a byte.
+        digits[first] = b'0' + u8::try_from(number % 10).unwrap_or(0);
+        number /= 10;
+        if number == 0 {
+            break;
+        }
+    }
+    out.extend_from_slice(&digits[first..]);
+}
+
+/// A token as an error message shows it: quoted, and cut if it is long.
+pub(super) fn shown(token: &[u8]) -> String {
+    const LONGEST: usize = 24;
+    let cut = &token[..token.len().min(LONGEST)];
+    let dots = if token.len() > LONGEST { "…" } else { "" };
+    format!("{:?}{dots}", String::from_utf8_lossy(cut))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_of_line_end_counts_once() {
+        let text = b"a\nb\r\nc\rd";
+        let lines: Vec<usize> = [0, 2, 5, 7].map(|at| line_of(text, at)).to_vec();
+        assert_eq!(lines, [1, 2, 3, 4]);
+    }
+
+    #[test]
+    fn a_statement_ends_at_its_comment_and_crosses_a_continuation() {
+        let text = b"f 1\\\r\n 2 3# 4";
+        let tokens: Vec<&[u8]> = Tokens::of_statement(text, 0).map(|t| &text[t]).collect();
+        assert_eq!(tokens, [b"f" as &[u8], b"1", b"2", b"3"]);
+    }
+
+    #[test]
+    fn numbers_are_whole_and_fit() {
+        assert_eq!(leading_number(b"-12/7"), Some((-12, 3)));
+        assert_eq!(whole_number(b"+3"), Some(3));
+        for bad in [b"" as &[u8], b"-", b"1X", b"1.0", b"9223372036854775808"] {
+            assert_eq!(whole_number(bad), None);
+        }
+    }
+
+    #[test]
+    fn numbers_are_written_as_they_are_read() {
+        for number in [0, 9, 10, 4_294_967_295, u64::MAX] {
+            let mut out = Vec::new();
+            push_number(&mut out, number);
+            assert_eq!(String::from_utf8(out).unwrap(), number.to_string());
+        }
+    }
+}

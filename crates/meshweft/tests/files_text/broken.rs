@@ -1,0 +1,141 @@
+//! Files that are broken, cut or spoilt: exact errors, and no harm done.
+
+use meshweft::Limits;
+use meshweft::files::{Document, Format};
+
+use super::{OBJ, PLY, PLY_HEAD, PLY_ROWS, Random, binary_ply, error, name_of, round_trip};
+
+#[test]
+fn limits_are_kept() {
+    let mut limits = Limits::default();
+    (limits.vertices, limits.faces) = (2, 1);
+    let open = |text: &str, format| {
+        let read = Document::from_bytes(text.into(), format, name_of(format), &limits);
+        read.err()
+            .map(|error| error.to_string())
+            .unwrap_or_default()
+    };
+    let obj = open("v 0 0 0\nv 0 0 0\nv 0 0 0\n", Format::Obj);
+    assert_eq!(
+        obj,
+        "mesh.obj: line 3: 3 vertices: more than the limit of 2"
+    );
+    let obj = open("v 0 0 0\nf 1 1 1\nf 1 1 1\n", Format::Obj);
+    assert_eq!(obj, "mesh.obj: line 3: 2 faces: more than the limit of 1");
+    let ply = open(&format!("{PLY_HEAD}end_header\n{PLY_ROWS}"), Format::Ply);
+    assert_eq!(
+        ply,
+        "mesh.ply: line 3: 3 vertices: more than the limit of 2"
+    );
+    let off = open("OFF\n1 1 0\n0 0 0\n4 0 0 0 0\n", Format::Off);
+    assert_eq!(off, "mesh.off: line 4: 2 faces: more than the limit of 1");
+}
+
+#[test]
+fn a_broken_file_says_what_where_and_what_to_do() {
+    let (obj, off, ply) = (Format::Obj, Format::Off, Format::Ply);
+    let again = "Repair or export it again: nothing can be moved while a face names no vertex";
+    let cut = "Fetch or export it again: it is incomplete";
+    let head = format!("{PLY_HEAD}end_header\n");
+    let cases: Vec<(String, Format, String)> = vec![
+        ("v 0 0 0\n\nf 1 1 9\n".into(), obj, format!("line 3: face 0, corner 2: index 9 is past the last vertex (1). {again}")),
+        ("f 1 2 3\n".into(), obj, format!("line 1: face 0, corner 0: index 1, but the file has no vertices. {again}")),
+        ("v 0 0 0\nf 1 0 1\n".into(), obj, "line 2: face 0, corner 1: index 0: vertices are counted from 1 (or back from -1)".into()),
+        ("v 0 0 0\nf 1 1 1\nf 1 -2 1\n".into(), obj, "line 3: face 1, corner 1: index -2 counts back past the first of the 1 vertices above it".into()),
+        ("v 0 0 0\nf 1 99999999999999999999 1\n".into(), obj, "line 2: face 0, corner 1: \"99999999999999999999\" is not a vertex number".into()),
+        ("v 0 0 0\nf 1/2/3/4 1 1\n".into(), obj, "line 2: face 0, corner 0: \"1/2/3/4\" is not of the form 1/2/3".into()),
+        ("v 0 0 0\nl 1 5\n".into(), obj, format!("line 2: line or point 0, corner 1: index 5 is past the last vertex (1). {again}")),
+        ("v 0 0\n".into(), obj, "line 1: vertex 1 has 2 coordinates and needs 3".into()),
+        ("\rv 0 zero 0\n".into(), obj, "line 2: \"zero\" is not a coordinate: write a number".into()),
+        (String::new(), off, format!("line 1: the file ends inside the header: an OFF file starts with the word OFF. {cut}")),
+        ("solid x\n".into(), off, "line 1: \"solid\" where an OFF file has the word OFF: is it another format?".into()),
+        ("OFF BINARY\n".into(), off, "line 1: binary OFF is not read. Convert it to ascii OFF or to PLY first".into()),
+        ("OFF\n-4 2 0\n".into(), off, "line 2: the number of vertices is \"-4\", which counts nothing".into()),
+        ("OFF\n1 1 0 0 0 0\n3 0 0 0\n".into(), off, "line 2: after the counts of vertices, faces and edges a new line must begin".into()),
+        ("OFF\n2 1 0\n0 0 0\n0 0\n".into(), off, "line 4: vertex 1 has 2 numbers on its line and needs 3".into()),
+        ("OFF\n2 1 0\n0 0 0\n".into(), off, format!("line 4: the file ends inside vertex 1 of 2. {cut}")),
+        ("OFF\n1 1 0\n0 0 0\n3 0 0\n".into(), off, "line 4: face 0 has 2 corners on its line, not the 3 it says".into()),
+        ("OFF\n1 1 0\n0 0 0\n3 0 -1 0\n".into(), off, format!("line 4: face 0, corner 1: index -1 is below zero. {again}")),
+        ("OFF\n1 1 0\n0 0 0\n3 0 1X 0\n".into(), off, "line 4: face 0, corner 1: \"1X\" is not a vertex number".into()),
+        (String::new(), ply, "line 1: a PLY file starts with the word ply: is it another format?".into()),
+        ("ply\nformat ascii 1.0\n".into(), ply, format!("line 3: the file ends inside the header: there is no end_header. {cut}")),
+        ("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar float vertex_indices\nend_header\n".into(), ply, "line 3: the corners of the faces are floats: export them as whole numbers".into()),
+        ("ply\nformat ascii 1.0\nelement face 1\nproperty int a\nend_header\n".into(), ply, "line 3: the faces have no list vertex_indices or vertex_index: their corners are not known".into()),
+        (format!("{head}0 0 0\n1 0 0\n"), ply, format!("line 12: the file ends inside vertex 2 of 3. {cut}")),
+        (format!("{head}0 0 0\n1 0 0\n0 1 0 0\n"), ply, "line 12: vertex 2: more values on its line than the header declares".into()),
+        (format!("{head}{}", PLY_ROWS.replace("3 2 1 0", "3 2 1 3")), ply, format!("line 14: face 1, corner 2: index 3 is past the last vertex (2). {again}")),
+        (format!("{head}{}", PLY_ROWS.replace("3 2 1 0", "-1 2 1 3")), ply, "line 14: face 1: a list of -1 entries".into()),
+    ];
+    for (text, format, expected) in cases {
+        let found = error(text.as_bytes(), format);
+        let prefix = format!("{}: ", name_of(format).display());
+        assert_eq!(found, prefix + &expected);
+    }
+    let mut bytes = binary_ply(true, "int", false, "");
+    bytes.truncate(bytes.len() - 20);
+    let end = bytes.len();
+    let expected = format!("mesh.ply: byte {end}: the file ends inside vertex 5 of 6. {cut}");
+    assert_eq!(error(&bytes, Format::Ply), expected);
+}
+
+/// One file of each kind, small enough to be spoilt in thousands of ways.
+fn small_files() -> Vec<(Vec<u8>, Format)> {
+    let off = b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0 # c\n3 0 1 2\n4 2 1 0 1 255 0\n";
+    let obj = b"v 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n 3\nf 3 2 1\nl -1 2";
+    let lists = "property list uchar uchar texcoord\n";
+    vec![
+        (OBJ.into(), Format::Obj),
+        (obj.into(), Format::Obj),
+        (PLY.into(), Format::Ply),
+        (binary_ply(false, "int", true, ""), Format::Ply),
+        (binary_ply(true, "uchar", false, lists), Format::Ply),
+        (off.into(), Format::Off),
+    ]
+}
+
+/// What the fuzz targets do, for a second and from known files.
+#[test]
+fn spoilt_files_are_refused_or_survive() {
+    let pieces: [&[u8]; 16] = [
+        b"\n",
+        b"\r",
+        b" ",
+        b"#",
+        b"\\",
+        b"\\\n",
+        b"-",
+        b"/",
+        b"0",
+        b"1",
+        b"\nf 1 2 3",
+        b"\nv 1 1 1",
+        b"f",
+        b"\0",
+        b"\xff",
+        b"99999999999",
+    ];
+    let mut random = Random(77);
+    for (bytes, format) in small_files() {
+        let name = name_of(format).to_str().unwrap();
+        round_trip::check(&bytes, format, name);
+        for _ in 0..4000 {
+            let mut spoilt = bytes.clone();
+            for _ in 0..=random.below(3) {
+                let at = random.below(spoilt.len());
+                let end = spoilt.len().min(at + random.below(4));
+                let piece = pieces[random.below(pieces.len())];
+                spoilt.splice(at..end, piece.iter().copied());
+            }
+            round_trip::check(&spoilt, format, name);
+        }
+    }
+}
+
+#[test]
+fn cut_files_are_refused_or_survive() {
+    for (bytes, format) in small_files() {
+        for length in 0..bytes.len() {
+            round_trip::check(&bytes[..length], format, name_of(format).to_str().unwrap());
+        }
+    }
+}

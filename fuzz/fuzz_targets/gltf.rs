@@ -1,0 +1,77 @@
+//! Any bytes as a GLB and as the JSON of a glTF: an error, or a scene whose faces and vertices can
+//! be reversed without losing a triangle.
+#![no_main]
+
+use std::path::Path;
+
+use libfuzzer_sys::fuzz_target;
+use meshweft::files::{Document, Format, MeshEntry};
+use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
+
+fuzz_target!(|data: &[u8]| {
+    check(data, Format::Glb, Path::new("no such folder/scene.glb"));
+    check(data, Format::Gltf, Path::new("no such folder/scene.gltf"));
+});
+
+fn check(data: &[u8], format: Format, path: &Path) {
+    let read = |bytes| Document::from_bytes(bytes, format, path, &Limits::default());
+    let Ok(mut document) = read(data.to_vec()) else {
+        return;
+    };
+    let unchanged = document
+        .to_bytes(path)
+        .expect("what was read can be written");
+    assert_eq!(unchanged, data);
+    for mesh in 0..document.meshes().len() {
+        let before = triangles(&document.meshes()[mesh]);
+        let entry = &document.meshes()[mesh];
+        let faces = FaceOrder::from(reversed(entry.record_count()));
+        let vertices = entry
+            .vertices_movable
+            .then(|| VertexOrder::from(reversed(entry.mesh.vertex_count())));
+        document
+            .apply(mesh, &faces, vertices.as_ref())
+            .expect("the orders have the right lengths");
+        assert_eq!(before, triangles(&document.meshes()[mesh]));
+    }
+    let bytes = document
+        .to_bytes(path)
+        .expect("what was read can be written");
+    let again = read(bytes).expect("what was written can be read");
+    assert_eq!(document.meshes().len(), again.meshes().len());
+    for (written, read) in document.meshes().iter().zip(again.meshes()) {
+        // Positions may be no numbers, which differ from themselves.
+        assert_eq!(written.mesh.faces(), read.mesh.faces());
+        assert_eq!(triangles(written), triangles(read));
+    }
+}
+
+/// What each triangle's corners hold, whatever the order of faces, corners and vertices.
+///
+/// Where the file gives no positions only the number of triangles can be told.
+fn triangles(entry: &MeshEntry) -> Vec<[[u32; 3]; 3]> {
+    let positions = entry.mesh.positions();
+    let corner = |vertex: u32| {
+        let position = positions.get(vertex as usize);
+        position.map_or([0; 3], |position| position.map(f32::to_bits))
+    };
+    let mut triangles: Vec<[[u32; 3]; 3]> = entry
+        .mesh
+        .faces()
+        .iter()
+        .map(|face| {
+            let [a, b, c] = face.map(corner);
+            [[a, b, c], [b, c, a], [c, a, b]]
+                .into_iter()
+                .min()
+                .unwrap_or_default()
+        })
+        .collect();
+    triangles.sort_unstable();
+    triangles
+}
+
+fn reversed(len: usize) -> Permutation {
+    let len = u32::try_from(len).expect("counts are checked when a mesh is read");
+    Permutation::new((0..len).rev().collect()).expect("each number once")
+}

@@ -1,0 +1,66 @@
+//! What has to hold for any bytes that a text reader accepts: the faces last first within their
+//! runs, the vertices last first, read again, are the same triangles.
+
+use std::path::Path;
+
+use meshweft::files::{Document, Format, MeshEntry};
+use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
+
+/// Reads `data`, permutes it, reads the output again and compares.
+///
+/// # Panics
+/// If anything was lost, added or changed.
+pub(crate) fn check(data: &[u8], format: Format, name: &str) {
+    let path = Path::new(name);
+    let limits = Limits::default();
+    let read = |bytes: Vec<u8>| Document::from_bytes(bytes, format, path, &limits);
+    let Ok(mut document) = read(data.to_vec()) else {
+        return;
+    };
+    let unchanged = document.to_bytes(path).expect("a name of the same format");
+    assert_eq!(unchanged, data, "a file is written as it was read");
+    let Some(entry) = document.meshes().first() else {
+        return;
+    };
+    let movable = entry.vertices_movable;
+    let before = triangles(entry, false);
+    let faces = last_first_within_runs(entry);
+    let vertices = movable.then(|| last_first(entry.mesh.vertex_count()));
+    document
+        .apply(0, &faces, vertices.as_ref())
+        .expect("an order that the entry allows");
+    let output = document.to_bytes(path).expect("a name of the same format");
+    let again = read(output).expect("what is written can be read");
+    let after = triangles(&again.meshes()[0], movable);
+    assert_eq!(before, after, "the triangles by their old vertex numbers");
+    assert_eq!(
+        document.meshes()[0].mesh.faces(),
+        again.meshes()[0].mesh.faces()
+    );
+}
+
+fn last_first(vertex_count: usize) -> VertexOrder {
+    let count = u32::try_from(vertex_count).expect("vertices are counted in 32 bits");
+    let order = Permutation::new((0..count).rev().collect());
+    order.expect("each number once").into()
+}
+
+fn last_first_within_runs(entry: &MeshEntry) -> FaceOrder {
+    let count = u32::try_from(entry.record_count()).expect("records are counted in 32 bits");
+    let ends = entry.runs.iter().skip(1).copied().chain([count]);
+    let runs = entry.runs.iter().zip(ends);
+    let order = runs.flat_map(|(&start, end)| (start..end).rev()).collect();
+    Permutation::new(order).expect("each number once").into()
+}
+
+/// The triangles, sorted, by the numbers their vertices had before.
+fn triangles(entry: &MeshEntry, is_reversed: bool) -> Vec<[usize; 3]> {
+    let old_of = |vertex: u32| match is_reversed {
+        true => entry.mesh.vertex_count() - 1 - vertex as usize,
+        false => vertex as usize,
+    };
+    let faces = entry.mesh.faces().iter();
+    let mut triangles: Vec<[usize; 3]> = faces.map(|face| face.map(old_of)).collect();
+    triangles.sort_unstable();
+    triangles
+}
