@@ -46,6 +46,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ("v 0 0 0\nf 1/2/3/4 1 1\n".into(), obj, "line 2: face 0, corner 0: \"1/2/3/4\" is not of the form 1/2/3".into()),
         ("v 0 0 0\nl 1 5\n".into(), obj, format!("line 2: line or point 0, corner 1: index 5 is past the last vertex (1). {again}")),
         ("v 0 0\n".into(), obj, "line 1: vertex 1 has 2 coordinates and needs 3".into()),
+        ("v 0 0 0 \\ \n".into(), obj, "line 1: a \\ at the end that is not followed by a line end: remove it".into()),
         ("\rv 0 zero 0\n".into(), obj, "line 2: \"zero\" is not a coordinate: write a number".into()),
         (String::new(), off, format!("line 1: the file ends inside the header: an OFF file starts with the word OFF. {cut}")),
         ("solid x\n".into(), off, "line 1: \"solid\" where an OFF file has the word OFF: is it another format?".into()),
@@ -81,7 +82,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
 /// One file of each kind, small enough to be spoilt in thousands of ways.
 fn small_files() -> Vec<(Vec<u8>, Format)> {
     let off = b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0 # c\n3 0 1 2\n4 2 1 0 1 255 0\n";
-    let obj = b"v 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n 3\nf 3 2 1\nl -1 2";
+    let obj = b"\\\n\nv 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n 3\nf 3 2 1\nl -1 2";
     let lists = "property list uchar uchar texcoord\n";
     vec![
         (OBJ.into(), Format::Obj),
@@ -118,7 +119,7 @@ fn spoilt_files_are_refused_or_survive() {
     for (bytes, format) in small_files() {
         let name = name_of(format).to_str().unwrap();
         round_trip::check(&bytes, format, name);
-        for _ in 0..4000 {
+        for _ in 0..10_000 {
             let mut spoilt = bytes.clone();
             for _ in 0..=random.below(3) {
                 let at = random.below(spoilt.len());

@@ -245,6 +245,12 @@ impl<'a> Reader<'a> {
                 Fault::malformed(span.start, text)
             })?;
         }
+        let record = &self.source[span.clone()];
+        if record.ends_with(b"\\") && !record.contains(&b'#') {
+            // Before another line end it would swallow the line behind.
+            let text = "a \\ at the end that is not followed by a line end: remove it";
+            return Err(Fault::malformed(span.start, text));
+        }
         if self.records.len() + self.lines.len() > 0 {
             let why = "this one comes after faces, lines or points".to_owned();
             self.obstacle.get_or_insert((span.start, why));

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::files::splice::{Change, Notation, write_corners};
-use crate::files::text::{Tokens, leading_number, line_end, trimmed};
+use crate::files::text::{Tokens, is_line_end, leading_number, line_end, trimmed};
 
 /// The statement that starts at `start`, and where its last line ends: at a line end that no `\`
 /// stands before.
@@ -17,7 +17,12 @@ pub(super) fn statement_span(source: &[u8], start: usize) -> (Range<usize>, usiz
         let is_commented = source[from..end].contains(&b'#');
         if end == source.len() || source[end - 1] != b'\\' || is_commented {
             let mut span = trimmed(source, start, end);
-            while !is_commented && from > start && span.end < end && source[span.end - 1] == b'\\' {
+            let continues = |span: &Range<usize>| {
+                source[span.clone()].ends_with(b"\\")
+                    && span.end < end
+                    && is_line_end(source[span.end])
+            };
+            while !is_commented && continues(&span) {
                 span = trimmed(source, start, span.end - 1);
             }
             return (span, end);
