@@ -25,11 +25,16 @@ pub(super) struct Vertex {
 }
 
 impl Vertex {
-    /// At least how many pushes finishing it takes: each white neighbour inside its fan is seen
-    /// from two live faces.
+    /// How many white neighbours it has at least, if it is in the cache and its fan is a surface's.
+    ///
+    /// A neighbour is a corner of one live face, or of two if it is inside the fan. One face being
+    /// drawn, the fan is open: `n` live faces share at most `n − 1` neighbours.
     #[inline]
     pub(super) fn white_neighbours(&self) -> u32 {
-        self.white_corners.div_ceil(2)
+        let corners = self.white_corners;
+        corners
+            .div_ceil(2)
+            .max((corners + 1).saturating_sub(self.live))
     }
 }
 

@@ -87,13 +87,10 @@ fn by_definition(mesh: &Mesh, algorithm: &KCacheReorder) -> (Vec<u32>, Vec<u8>) 
         let candidates = candidates.take(candidate_count(size));
         let estimate = |v: u32| {
             let corners = live_faces(v).into_iter().flat_map(|f| faces[f]);
-            let white = corners.filter(|c| !buffer.held.contains(c)).count();
+            let white = index32(corners.filter(|c| !buffer.held.contains(c)).count());
             let age = buffer.held.iter().rev().position(|&h| h == v);
-            costs.of(
-                index32(white.div_ceil(2)),
-                live(v),
-                index32(age.unwrap_or(0)) + 1,
-            )
+            let neighbours = white.div_ceil(2).max((white + 1).saturating_sub(live(v)));
+            costs.of(neighbours, live(v), index32(age.unwrap_or(0)) + 1)
         };
         // In the order of their estimates, until one that was run is no dearer than the next.
         let mut by_estimate: Vec<(i64, usize, u32)> = candidates
