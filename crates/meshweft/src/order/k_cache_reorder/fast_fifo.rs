@@ -15,7 +15,7 @@ use std::hint::select_unpredictable;
 
 use super::costs::Costs;
 use super::live_faces::{HUB, LiveFaces};
-use super::queue::Queue;
+use super::queue::{Entry, Queue};
 use crate::limits::index32;
 use crate::permutation::{FaceOrder, Permutation};
 
@@ -66,6 +66,8 @@ struct Growth<'a> {
     /// The vertex pushed at each of the last times, by the low bits of the clock.
     pushed: Vec<u32>,
     queue: Queue,
+    /// The candidates of a step; kept to save clearing it each time.
+    oldest: [Entry; MAX_CANDIDATES + 1],
     run: Run,
     new_to_old: Vec<u32>,
     rotations: Vec<u8>,
@@ -93,6 +95,7 @@ impl<'a> Growth<'a> {
             // The entry past the last vertex is on no face, so it leaves without a trace.
             pushed: vec![index32(vertex_count); ring],
             queue: Queue::new(size),
+            oldest: [(0, 0); MAX_CANDIDATES + 1],
             run: Run {
                 vertex: None,
                 faces: vec![0; HUB as usize],
@@ -134,8 +137,8 @@ impl<'a> Growth<'a> {
         if self.queue.entries().is_empty() {
             return None;
         }
-        let mut oldest = [(0, 0); MAX_CANDIDATES + 1];
         let mut cost = [0_i64; MAX_CANDIDATES + 1];
+        let oldest = &mut self.oldest;
         let mut count = 0;
         let mut scanned = 0;
         let mut best = 0;
@@ -164,8 +167,12 @@ impl<'a> Growth<'a> {
         }
         let mut confirmed = 0_u32;
         loop {
-            let (focus, _) = oldest[best];
-            if confirmed >> best & 1 != 0 || self.live.vertices[focus as usize].live > HUB {
+            let (focus, _) = self.oldest[best];
+            let vertex = &self.live.vertices[focus as usize];
+            // Without a push, or with one face left whose hits come first, nothing that is needed
+            // can be evicted: the estimate is the cost.
+            let is_exact = vertex.white_corners == 0 || !KEEP_CORNERS && vertex.live == 1;
+            if is_exact || confirmed >> best & 1 != 0 || vertex.live > HUB {
                 return Some(focus);
             }
             let exact = self.tentative_cost::<KEEP_CORNERS>(focus);

@@ -42,7 +42,11 @@ impl Queue {
     #[inline]
     pub(super) fn replace_front(&mut self, scanned: usize, kept: &[Entry]) {
         self.head += scanned - kept.len();
-        self.entries[self.head..][..kept.len()].copy_from_slice(kept);
+        if scanned != kept.len() {
+            for (entry, &kept) in self.entries[self.head..].iter_mut().zip(kept) {
+                *entry = kept;
+            }
+        }
     }
 
     #[cold]
