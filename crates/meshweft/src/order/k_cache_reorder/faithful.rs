@@ -12,6 +12,9 @@ use crate::cache::CacheEvent;
 use crate::limits::index32;
 use crate::permutation::{FaceOrder, Permutation};
 
+/// Most faces of a tentative run.
+const MAX_RUN: u32 = 4096;
+
 /// Draws all faces; `record` receives each push, pop and draw.
 pub(super) fn face_order(
     faces: &[[u32; 3]],
@@ -115,6 +118,9 @@ impl<R: FnMut(CacheEvent)> Reorder<'_, R> {
 
     fn cost(&self, vertex: u32) -> i64 {
         let live = self.live[vertex as usize];
+        if live > MAX_RUN {
+            return i64::MAX;
+        }
         if self.controllable {
             return self.costs.of(self.white_neighbours(vertex), live, 0);
         }

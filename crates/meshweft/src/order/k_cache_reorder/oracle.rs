@@ -209,3 +209,19 @@ fn weights_and_first_focus_are_obeyed() {
         assert!(mesh.faces()[order.new_to_old()[0] as usize].contains(&17));
     }
 }
+
+#[test]
+fn a_cache_larger_than_the_mesh_is_no_different() {
+    let mesh = grid(9, 9, true, 5);
+    for cache in [CacheModel::fifo, CacheModel::controllable] {
+        for mode in [super::Mode::Fast, super::Mode::Faithful] {
+            let algorithm = KCacheReorder {
+                cache: cache(u32::MAX),
+                mode,
+                ..Default::default()
+            };
+            let ordered = mesh.with_face_order(&algorithm.face_order(&mesh));
+            assert_eq!(crate::cache::misses(ordered.faces(), cache(81)), 81);
+        }
+    }
+}
