@@ -1,2 +1,35 @@
-//! The program `meshweft`.
-fn main() {}
+//! The program `meshweft`: optimise, inspect and compare the face order of mesh files.
+#![forbid(unsafe_code)]
+
+mod args;
+mod compare;
+mod count;
+mod inspect;
+mod optimize;
+mod output;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Verb};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match &arguments.verb {
+        Verb::Optimize(arguments) => optimize::run(arguments),
+        Verb::Inspect(arguments) => inspect::run(arguments),
+        Verb::Compare(arguments) => compare::run(arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(match error.is::<args::Usage>() {
+                true => 2,
+                false => 1,
+            })
+        }
+    }
+}

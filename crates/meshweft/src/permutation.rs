@@ -98,6 +98,24 @@ impl Permutation {
         }
     }
 
+    /// This permutation, then another of its result, as one.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    ///
+    /// ```
+    /// use meshweft::Permutation;
+    /// let (p, q) = (Permutation::new(vec![2, 0, 1])?, Permutation::new(vec![1, 0, 2])?);
+    /// assert_eq!(p.then(&q).apply(b"abc"), q.apply(&p.apply(b"abc")));
+    /// # Ok::<(), meshweft::MeshError>(())
+    /// ```
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        Self {
+            new_to_old: next.apply(&self.new_to_old),
+        }
+    }
+
     /// How many entries it has.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -210,6 +228,25 @@ impl FaceOrder {
         &self.rotations
     }
 
+    /// This order, then another of its result, as one.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        let turned = |(new, &between): (usize, &u32)| {
+            (self.rotation(between as usize) + next.rotation(new)) % 3
+        };
+        let rotations = match self.rotations.is_empty() && next.rotations.is_empty() {
+            true => Vec::new(),
+            false => next.new_to_old().iter().enumerate().map(turned).collect(),
+        };
+        Self {
+            permutation: self.permutation.then(&next.permutation),
+            rotations,
+        }
+    }
+
     /// How many faces it orders.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -293,6 +330,15 @@ impl VertexOrder {
         self.permutation.new_to_old()
     }
 
+    /// This order, then another of its result, as one.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        self.permutation.then(&next.permutation).into()
+    }
+
     /// How many vertices it orders.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -366,6 +412,26 @@ mod tests {
         let order = FaceOrder::new(Permutation::identity(3), vec![0, 1, 2]).unwrap();
         let turned = order.apply(&[[7, 8, 9]; 3]);
         assert_eq!(turned, [[7, 8, 9], [8, 9, 7], [9, 7, 8]]);
+    }
+
+    #[test]
+    fn orders_add_up_with_their_rotations() {
+        let order = |new_to_old: [u32; 3], rotations: &[u8]| {
+            let permutation = Permutation::new(new_to_old.to_vec()).unwrap();
+            FaceOrder::new(permutation, rotations.to_vec()).unwrap()
+        };
+        let faces = [[0, 1, 2], [3, 4, 5], [6, 7, 8]];
+        let orders = [
+            order([2, 0, 1], &[1, 2, 0]),
+            order([0, 2, 1], &[2, 2, 1]),
+            order([1, 2, 0], &[]),
+        ];
+        for first in &orders {
+            for second in &orders {
+                let both = first.then(second).apply(&faces);
+                assert_eq!(both, second.apply(&first.apply(&faces)));
+            }
+        }
     }
 
     #[test]

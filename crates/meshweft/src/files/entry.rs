@@ -141,8 +141,11 @@ impl MeshEntry {
             .all(|(new, &old)| run_of(new) == run_of(old))
     }
 
-    /// Moves the records of this entry as the file's were moved.
-    pub(crate) fn apply_faces(&mut self, order: &FaceOrder) {
+    /// Moves the face records of this entry; the file it came from is not changed.
+    ///
+    /// # Panics
+    /// If the order is of another number of records.
+    pub fn apply_faces(&mut self, order: &FaceOrder) {
         let Some(starts) = &self.polygons else {
             self.mesh = self.mesh.with_face_order(order);
             return;
@@ -159,8 +162,11 @@ impl MeshEntry {
         self.replace_faces(faces);
     }
 
-    /// Renumbers the vertices of this entry as the file's were moved.
-    pub(crate) fn apply_vertices(&mut self, order: &VertexOrder) {
+    /// Moves and renumbers the vertices of this entry; the file it came from is not changed.
+    ///
+    /// # Panics
+    /// If the order is of another number of vertices.
+    pub fn apply_vertices(&mut self, order: &VertexOrder) {
         self.mesh = self.mesh.with_vertex_order(order);
     }
 

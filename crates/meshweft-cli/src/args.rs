@@ -1,0 +1,176 @@
+//! The command line.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use meshweft::CacheModel;
+
+/// Puts the triangles of a mesh in the order in which a GPU transforms each vertex about once.
+#[derive(Debug, Parser)]
+#[command(name = "meshweft", version, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    /// Re-order the faces and vertices of a file in place of its bytes
+    ///
+    /// Faces are put in the order in which a vertex cache misses least, vertices in the order of
+    /// their first use. Nothing else in the file changes. A mesh whose order would not get better
+    /// is left as it is.
+    ///
+    ///   meshweft optimize scene.glb -o ordered.glb
+    ///   meshweft optimize scan.ply --in-place --cache fifo:16 --json
+    #[command(verbatim_doc_comment)]
+    Optimize(Optimize),
+    /// Count cache misses of files as they are
+    ///
+    ///   meshweft inspect scene.glb --cache fifo:12 --cache nvidia --json
+    #[command(verbatim_doc_comment)]
+    Inspect(Inspect),
+    /// Tell whether two files hold the same triangles, and whose order is better
+    ///
+    ///   meshweft compare before.obj after.obj --cache fifo:12
+    #[command(verbatim_doc_comment)]
+    Compare(Compare),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Optimize {
+    /// The files: .gltf, .glb, .obj, .ply, .off, also with .gz behind
+    #[arg(required = true, value_name = "IN")]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// Where to write: a file, or with several inputs a folder
+    #[arg(short, long, value_name = "OUT", conflicts_with = "in_place")]
+    pub(crate) output: Option<PathBuf>,
+    /// Replace the input once the new file is whole
+    #[arg(long)]
+    pub(crate) in_place: bool,
+    /// Do everything but write
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+    /// The cache to order for: fifo:K or controllable:K
+    ///
+    /// An order made for a larger cache than the device has is bad, one made for a smaller cache
+    /// loses little: hence the small default.
+    #[arg(long, value_name = "MODEL", default_value = "fifo:12")]
+    pub(crate) cache: CacheModel,
+    /// fast, or faithful to the paper of Lin and Yu
+    #[arg(long, value_enum, default_value_t = Mode::Fast)]
+    pub(crate) mode: Mode,
+    /// Never turn a face's corners (provoking vertex, data on edges)
+    #[arg(long)]
+    pub(crate) keep_corners: bool,
+    /// Leave the vertices where they are
+    #[arg(long)]
+    pub(crate) keep_vertex_order: bool,
+    /// Write the new order even where it misses more
+    #[arg(long)]
+    pub(crate) allow_worse: bool,
+    /// Weight of a push
+    #[arg(long, value_name = "WEIGHT", default_value_t = 1.0)]
+    pub(crate) k1: f64,
+    /// Weight of a face drawn
+    #[arg(long, value_name = "WEIGHT", default_value_t = 0.5)]
+    pub(crate) k2: f64,
+    /// Weight of the distance from the front of a FIFO cache
+    #[arg(long, value_name = "WEIGHT", default_value_t = 1.3)]
+    pub(crate) k3: f64,
+    /// Write the permutation as JSON: out[i] = in[new_to_old[i]]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) write_permutation: Option<PathBuf>,
+    /// Go on with the next file when one fails
+    #[arg(long)]
+    pub(crate) keep_going: bool,
+    #[command(flatten)]
+    pub(crate) report: Report,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Inspect {
+    /// The files
+    #[arg(required = true, value_name = "IN")]
+    pub(crate) inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) caches: Caches,
+    #[command(flatten)]
+    pub(crate) report: Report,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    /// The first file
+    pub(crate) a: PathBuf,
+    /// The second file; another format is fine
+    pub(crate) b: PathBuf,
+    #[command(flatten)]
+    pub(crate) caches: Caches,
+    #[command(flatten)]
+    pub(crate) report: Report,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Caches {
+    /// A cache to count for, again for more: fifo:K, lru:K, controllable:K, nvidia, amd, intel
+    /// [default: fifo:12 fifo:16 fifo:32 nvidia amd intel]
+    #[arg(long = "cache", value_name = "MODEL")]
+    pub(crate) models: Vec<CacheModel>,
+}
+
+impl Caches {
+    /// The models asked for, each once, or the usual six.
+    pub(crate) fn models(&self) -> Vec<CacheModel> {
+        let usual = [
+            CacheModel::fifo(12),
+            CacheModel::fifo(16),
+            CacheModel::fifo(32),
+            CacheModel::NVIDIA,
+            CacheModel::AMD,
+            CacheModel::INTEL,
+        ];
+        let asked = match self.models.is_empty() {
+            true => &usual[..],
+            false => &self.models[..],
+        };
+        let mut models = Vec::new();
+        for &model in asked {
+            if !models.contains(&model) {
+                models.push(model);
+            }
+        }
+        models
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Report {
+    /// Print the report as JSON on standard output, all text on standard error
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Mode {
+    /// Faster and better than the paper
+    Fast,
+    /// The plain reading of the paper
+    Faithful,
+}
+
+/// What the command line asks for cannot be done; exit code 2.
+#[derive(Debug)]
+pub(crate) struct Usage(pub(crate) String);
+
+impl fmt::Display for Usage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Usage {}

@@ -1,0 +1,99 @@
+//! `inspect`: counts, without writing anything.
+
+use std::path::Path;
+
+use anyhow::{Error, Result};
+use meshweft::files::Document;
+use meshweft::{CacheModel, Limits};
+use serde_json::{Value, json};
+
+use crate::args::Inspect;
+use crate::count::Counts;
+
+/// Prints the counts of each file.
+pub(crate) fn run(arguments: &Inspect) -> Result<()> {
+    let models = arguments.caches.models();
+    let mut failed: Option<Error> = None;
+    for path in &arguments.inputs {
+        if let Err(error) = inspect(path, &models, arguments) {
+            if let Some(earlier) = failed.replace(error) {
+                eprintln!("error: {earlier:#}");
+            }
+        }
+    }
+    failed.map_or(Ok(()), Err)
+}
+
+fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<()> {
+    let document = Document::open(path, &Limits::default())?;
+    let entries = document.meshes();
+    let counts: Vec<_> = entries
+        .iter()
+        .map(|e| Counts::of(&e.mesh, models))
+        .collect();
+    let total = Counts::total(entries, &counts, models);
+    let meshes: Vec<Value> = entries
+        .iter()
+        .zip(&counts)
+        .map(|(entry, count)| {
+            let mut object = count.json();
+            object.shift_insert(0, "name".into(), json!(entry.name));
+            Value::Object(object)
+        })
+        .collect();
+    arguments.report.json(&json!({
+        "schema": 1,
+        "file": path.display().to_string(),
+        "format": document.format().to_string(),
+        "meshes": meshes,
+        "total": total.json(),
+        "notes": crate::output::notes_json(&document),
+    }))?;
+    arguments.report.text(&text(&document, &counts, &total))?;
+    Ok(arguments.report.notes(&document)?)
+}
+
+fn text(document: &Document, counts: &[Counts], total: &Counts) -> String {
+    let mut rows = vec![vec![
+        "mesh".to_owned(),
+        "faces".into(),
+        "vertices".into(),
+        "used".into(),
+    ]];
+    for (model, _) in &total.misses {
+        rows[0].push(format!("ACMR {model}"));
+        rows[0].push("ATVR".into());
+    }
+    let row = |name: &str, counts: &Counts| {
+        let sizes = [counts.faces, counts.vertices, counts.used_vertices];
+        let sizes = sizes.map(|n| n.to_string());
+        let ratios = counts.acmr().zip(counts.atvr());
+        let ratios = ratios.flat_map(|(a, b)| [a.1, b.1].map(|x| format!("{x:.3}")));
+        let name = [name.to_owned()].into_iter();
+        name.chain(sizes).chain(ratios).collect::<Vec<_>>()
+    };
+    for (entry, counts) in document.meshes().iter().zip(counts) {
+        rows.push(row(&entry.name, counts));
+    }
+    if counts.len() != 1 {
+        rows.push(row("total", total));
+    }
+    format!("{}\n{}", document.path().display(), columns(&rows))
+}
+
+/// Rows as lines, the first column to the left, the others to the right.
+pub(crate) fn columns(rows: &[Vec<String>]) -> String {
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let line = |row: &Vec<String>| {
+        let cell = |(column, cell): (usize, &String)| match column {
+            0 => format!("{cell:<0$}", width(0)),
+            _ => format!("  {cell:>0$}", width(column)),
+        };
+        let line: String = row.iter().enumerate().map(cell).collect();
+        line.trim_end().to_owned()
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,246 @@
+//! Better orders for the meshes of a file, found before the file is touched.
+
+use anyhow::Result;
+use meshweft::files::{Document, MeshEntry};
+use meshweft::order::{KCacheReorder, Mode, vertex_fetch};
+use meshweft::{CacheModel, FaceOrder, Mesh, VertexOrder, cache};
+use serde_json::{Value, json};
+
+use crate::args::Optimize;
+
+/// Most rounds; see [`improve`].
+const MAX_ROUNDS: usize = 64;
+/// Bytes of a vertex record that overfetch is compared for.
+const VERTEX_SIZE: usize = 32;
+
+/// What is to be done to each mesh and each vertex group.
+pub(super) struct Improvement {
+    faces: Vec<FaceChange>,
+    /// By vertex group, with a mesh that has it.
+    vertices: Vec<(usize, usize, VertexOrder)>,
+}
+
+struct FaceChange {
+    order: FaceOrder,
+    /// Why faces stay although they could move.
+    reason: Option<&'static str>,
+    /// Pushes of the schedule that came with the order.
+    scheduled: Option<u64>,
+}
+
+/// Orders faces and vertices until that improves nothing any more.
+///
+/// A second round starts from another state and may find another order; it is taken if it misses
+/// less. The last round finds nothing, and the program run on its own output starts with just that
+/// round: it changes nothing. The faithful mode runs once, as the paper does.
+pub(super) fn improve(
+    entries: &[MeshEntry],
+    algorithm: &KCacheReorder,
+    arguments: &Optimize,
+) -> Improvement {
+    let mut entries = entries.to_vec();
+    let unchanged = |entry: &MeshEntry| FaceChange {
+        order: FaceOrder::identity(entry.record_count()),
+        reason: None,
+        scheduled: None,
+    };
+    let mut improvement = Improvement {
+        faces: entries.iter().map(unchanged).collect(),
+        vertices: vertex_groups(&entries),
+    };
+    let once = algorithm.mode == Mode::Faithful || arguments.allow_worse;
+    let rounds = if once { 1 } else { MAX_ROUNDS };
+    for _ in 0..rounds {
+        let mut moved = vec![false; entries.len()];
+        for (i, entry) in entries.iter_mut().enumerate() {
+            moved[i] = improvement.faces[i].improve(entry, algorithm, arguments.allow_worse);
+        }
+        let mut changed = moved.iter().any(|&moved| moved);
+        if !arguments.keep_vertex_order {
+            changed |= improvement.improve_vertices(&mut entries, &moved);
+        }
+        if !changed {
+            break;
+        }
+    }
+    improvement
+}
+
+/// The groups whose vertices may move, each with its first mesh and an order that moves nothing.
+fn vertex_groups(entries: &[MeshEntry]) -> Vec<(usize, usize, VertexOrder)> {
+    let mut groups: Vec<(usize, usize, VertexOrder)> = Vec::new();
+    for (i, entry) in entries.iter().enumerate() {
+        let group = entry.vertex_group;
+        if groups.iter().all(|g| g.0 != group) {
+            groups.push((group, i, VertexOrder::identity(entry.mesh.vertex_count())));
+        }
+    }
+    let movable = |group: usize| {
+        let mut members = entries.iter().filter(move |e| e.vertex_group == group);
+        members.all(|e| e.vertices_movable)
+    };
+    groups.retain(|g| movable(g.0));
+    groups
+}
+
+impl FaceChange {
+    /// Orders the faces of `entry` if that misses less; whether it did.
+    fn improve(
+        &mut self,
+        entry: &mut MeshEntry,
+        algorithm: &KCacheReorder,
+        allow_worse: bool,
+    ) -> bool {
+        let turnable = entry.corners_turnable && entry.polygons.is_none();
+        let algorithm = KCacheReorder {
+            keep_corners: algorithm.keep_corners || !turnable,
+            ..algorithm.clone()
+        };
+        let mut scheduled = 0;
+        let order = entry.record_order(|mesh| order_and_count(&algorithm, mesh, &mut scheduled));
+        if order.is_identity() {
+            return false;
+        }
+        let misses = |entry: &MeshEntry| cache::misses(entry.mesh.faces(), algorithm.cache);
+        let before = misses(entry);
+        let mut ordered = entry.clone();
+        ordered.apply_faces(&order);
+        if misses(&ordered) >= before && !allow_worse {
+            if self.order.is_identity() {
+                self.reason = Some("the order found does not miss less");
+            }
+            return false;
+        }
+        *entry = ordered;
+        self.order = self.order.then(&order);
+        self.reason = None;
+        let is_controllable = matches!(algorithm.cache, CacheModel::Controllable { .. });
+        self.scheduled = is_controllable.then_some(scheduled);
+        true
+    }
+}
+
+fn order_and_count(algorithm: &KCacheReorder, mesh: &Mesh, scheduled: &mut u64) -> FaceOrder {
+    match algorithm.cache {
+        CacheModel::Controllable { .. } => {
+            let (order, schedule) = algorithm.schedule(mesh);
+            *scheduled += schedule.pushes();
+            order
+        }
+        _ => algorithm.face_order(mesh),
+    }
+}
+
+impl Improvement {
+    /// Puts vertices in the order of their first use, in groups where faces moved or where that
+    /// fetches less; whether any moved.
+    fn improve_vertices(&mut self, entries: &mut [MeshEntry], moved: &[bool]) -> bool {
+        let mut changed = false;
+        for (group, _, total) in &mut self.vertices {
+            let members = || (0..moved.len()).filter(|&i| entries[i].vertex_group == *group);
+            let members: Vec<usize> = members().collect();
+            let faces = |entries: &[MeshEntry]| -> Vec<[u32; 3]> {
+                let all = members.iter().flat_map(|&i| entries[i].mesh.faces());
+                all.copied().collect()
+            };
+            let now = faces(entries);
+            let order = vertex_fetch(&now, total.len());
+            if order.is_identity() {
+                continue;
+            }
+            let overfetch = |faces: &[[u32; 3]]| cache::overfetch(faces, VERTEX_SIZE);
+            let faces_moved = members.iter().any(|&i| moved[i]);
+            if !faces_moved && overfetch(&order.renumber(&now)) >= overfetch(&now) {
+                continue;
+            }
+            for &i in &members {
+                entries[i].apply_vertices(&order);
+            }
+            *total = total.then(&order);
+            changed = true;
+        }
+        changed
+    }
+
+    /// Does it to the file.
+    pub(super) fn apply(&self, document: &mut Document) -> Result<()> {
+        for (i, change) in self.faces.iter().enumerate() {
+            if !change.order.is_identity() {
+                document.apply(i, &change.order, None)?;
+            }
+        }
+        for (_, mesh, order) in &self.vertices {
+            if !order.is_identity() {
+                let still = FaceOrder::identity(document.meshes()[*mesh].record_count());
+                document.apply(*mesh, &still, Some(order))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether anything is moved.
+    pub(super) fn changes(&self) -> bool {
+        let faces = self.faces.iter().any(|change| !change.order.is_identity());
+        faces
+            || self
+                .vertices
+                .iter()
+                .any(|(_, _, order)| !order.is_identity())
+    }
+
+    /// Whether faces of this mesh are moved or turned.
+    pub(super) fn moved_faces(&self, mesh: usize) -> bool {
+        !self.faces[mesh].order.is_identity()
+    }
+
+    /// Whether the vertices of this mesh are moved.
+    pub(super) fn moved_vertices(&self, entry: &MeshEntry) -> bool {
+        self.vertex_order(entry)
+            .is_some_and(|order| !order.is_identity())
+    }
+
+    fn vertex_order(&self, entry: &MeshEntry) -> Option<&VertexOrder> {
+        let group = self.vertices.iter().find(|g| g.0 == entry.vertex_group);
+        group.map(|(_, _, order)| order)
+    }
+
+    /// Why the faces of this mesh stay.
+    pub(super) fn reason(&self, mesh: usize) -> Option<&'static str> {
+        self.faces[mesh].reason
+    }
+
+    /// Pushes of the schedule of this mesh, for a controllable cache.
+    pub(super) fn scheduled(&self, mesh: usize) -> Option<u64> {
+        self.faces[mesh].scheduled
+    }
+
+    /// The same for all meshes, if each has a schedule.
+    pub(super) fn scheduled_total(&self) -> Option<u64> {
+        let total: Option<u64> = self.faces.iter().map(|change| change.scheduled).sum();
+        total.filter(|_| !self.faces.is_empty())
+    }
+
+    /// What was done: `out[i] = in[new_to_old[i]]`, faces counted as the file's records.
+    pub(super) fn permutation_json(&self, document: &Document) -> Value {
+        let meshes = document.meshes().iter().zip(&self.faces);
+        let meshes: Vec<Value> = meshes
+            .map(|(entry, change)| {
+                let order = &change.order;
+                let rotations: Vec<u8> = (0..order.len()).map(|i| order.rotation(i)).collect();
+                let vertices = self.vertex_order(entry).filter(|o| !o.is_identity());
+                json!({
+                    "name": entry.name,
+                    "face_new_to_old": order.new_to_old(),
+                    "corner_rotations": rotations,
+                    "vertex_new_to_old": vertices.map(VertexOrder::new_to_old),
+                })
+            })
+            .collect();
+        json!({
+            "schema": 1,
+            "file": document.path().display().to_string(),
+            "convention": "out[i] = in[new_to_old[i]]; new corner j = old corner (j + rotation) % 3",
+            "meshes": meshes,
+        })
+    }
+}

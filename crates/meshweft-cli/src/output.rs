@@ -1,0 +1,70 @@
+//! Where text and JSON go.
+
+use std::io::{self, Write};
+
+use anyhow::Error;
+use meshweft::files::{Document, Place};
+use serde_json::{Value, json};
+
+use crate::args::Report;
+
+impl Report {
+    /// Prints a JSON document on a line of standard output, if JSON was asked for.
+    pub(crate) fn json(&self, value: &Value) -> io::Result<()> {
+        match self.json {
+            true => writeln!(io::stdout().lock(), "{value}"),
+            false => Ok(()),
+        }
+    }
+
+    /// Prints text for people: on standard output, or on standard error beside JSON.
+    pub(crate) fn text(&self, text: &str) -> io::Result<()> {
+        match (self.quiet, self.json) {
+            (true, _) => Ok(()),
+            (false, true) => writeln!(io::stderr().lock(), "{text}"),
+            (false, false) => writeln!(io::stdout().lock(), "{text}"),
+        }
+    }
+
+    /// Says on standard error what a file's reader leaves as it is.
+    pub(crate) fn notes(&self, document: &Document) -> io::Result<()> {
+        if self.quiet {
+            return Ok(());
+        }
+        for note in document.notes() {
+            let place = place(&note.place);
+            let colon = if place.is_empty() { "" } else { ": " };
+            let path = document.path().display();
+            writeln!(
+                io::stderr().lock(),
+                "note: {path}: {place}{colon}{}",
+                note.text
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// The notes of a document as JSON.
+pub(crate) fn notes_json(document: &Document) -> Value {
+    let notes = document.notes().iter();
+    notes
+        .map(|note| json!({"place": place(&note.place), "text": note.text}))
+        .collect()
+}
+
+fn place(place: &Place) -> String {
+    match place {
+        Place::Line(line) => format!("line {line}"),
+        Place::Byte(byte) => format!("byte {byte}"),
+        Place::Json(pointer) => pointer.clone(),
+        _ => String::new(),
+    }
+}
+
+/// Whether whoever read our output has gone: no error to report, nobody to report it to.
+pub(crate) fn is_broken_pipe(error: &Error) -> bool {
+    let io = error.chain().filter_map(|e| e.downcast_ref::<io::Error>());
+    io.into_iter()
+        .any(|e| e.kind() == io::ErrorKind::BrokenPipe)
+}
