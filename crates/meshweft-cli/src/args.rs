@@ -36,6 +36,16 @@ pub(crate) enum Verb {
     ///   meshweft compare before.obj after.obj --cache fifo:12
     #[command(verbatim_doc_comment)]
     Compare(Compare),
+    /// Show it all on meshes made here: no file needed
+    ///
+    /// Makes a knotted tube and an isosurface, scan-like and shuffled, orders them by every method,
+    /// prints misses and times, and writes the ordered mesh and a picture of before and after.
+    ///
+    ///   meshweft demo -o folder
+    #[command(verbatim_doc_comment)]
+    Demo(Demo),
+    /// Print a paper's tables beside ours
+    Paper(Paper),
 }
 
 #[derive(Debug, Args)]
@@ -108,6 +118,48 @@ pub(crate) struct Compare {
     pub(crate) b: PathBuf,
     #[command(flatten)]
     pub(crate) caches: Caches,
+    #[command(flatten)]
+    pub(crate) report: Report,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Demo {
+    /// The folder to write to
+    #[arg(short, long, value_name = "DIR", default_value = "meshweft-demo")]
+    pub(crate) output: PathBuf,
+    /// About how many faces each mesh has
+    #[arg(long, value_name = "N", default_value_t = 100_000,
+          value_parser = clap::value_parser!(u32).range(500..=4_000_000))]
+    pub(crate) faces: u32,
+    #[command(flatten)]
+    pub(crate) report: Report,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Paper {
+    #[command(subcommand)]
+    pub(crate) paper: WhichPaper,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum WhichPaper {
+    /// Lin, Yu: An Improved Vertex Caching Scheme for 3D Mesh Rendering (2006)
+    ///
+    /// Figures 3, 6, 7, 8, 9 and 10, on the meshes that are found.
+    ///
+    ///   meshweft paper lin-yu --data folder-with-meshes
+    #[command(verbatim_doc_comment)]
+    LinYu(LinYu),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LinYu {
+    /// A folder with the meshes (fandisk.off, bunny.ply, …, also .gz), or one with a folder `meshes`
+    #[arg(long, value_name = "DIR")]
+    pub(crate) data: PathBuf,
+    /// Leave out meshes of more than 200 thousand faces
+    #[arg(long)]
+    pub(crate) skip_large: bool,
     #[command(flatten)]
     pub(crate) report: Report,
 }

@@ -15,10 +15,10 @@ pub(crate) fn run(arguments: &Inspect) -> Result<()> {
     let models = arguments.caches.models();
     let mut failed: Option<Error> = None;
     for path in &arguments.inputs {
-        if let Err(error) = inspect(path, &models, arguments) {
-            if let Some(earlier) = failed.replace(error) {
-                eprintln!("error: {earlier:#}");
-            }
+        if let Err(error) = inspect(path, &models, arguments)
+            && let Some(earlier) = failed.replace(error)
+        {
+            eprintln!("error: {earlier:#}");
         }
     }
     failed.map_or(Ok(()), Err)

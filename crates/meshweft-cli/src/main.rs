@@ -4,15 +4,17 @@
 mod args;
 mod compare;
 mod count;
+mod demo;
 mod inspect;
 mod optimize;
 mod output;
+mod paper;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
-use args::{Arguments, Verb};
+use args::{Arguments, Verb, WhichPaper};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -20,6 +22,10 @@ fn main() -> ExitCode {
         Verb::Optimize(arguments) => optimize::run(arguments),
         Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Compare(arguments) => compare::run(arguments),
+        Verb::Demo(arguments) => demo::run(arguments),
+        Verb::Paper(arguments) => match &arguments.paper {
+            WhichPaper::LinYu(arguments) => paper::lin_yu::run(arguments),
+        },
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,0 +1,179 @@
+//! `demo`: every method on meshes made here.
+
+mod glb;
+mod meshes;
+mod picture;
+
+use std::fs;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use meshweft::order::baselines::{random, tipsify};
+use meshweft::order::{KCacheReorder, Mode, vertex_fetch};
+use meshweft::{CacheModel, FaceOrder, Mesh, cache};
+use serde_json::{Value, json};
+
+use crate::args::Demo;
+use crate::inspect::columns;
+
+/// Cache sizes of the columns.
+const SIZES: [u32; 3] = [12, 16, 32];
+/// GPU models of the columns, counted on the order made for the first size.
+const GPUS: [CacheModel; 3] = [CacheModel::NVIDIA, CacheModel::AMD, CacheModel::INTEL];
+
+/// A name and a way to order a mesh for a FIFO cache of a size.
+type Method = (&'static str, fn(&Mesh, u32) -> FaceOrder);
+
+const METHODS: [Method; 5] = [
+    ("as it comes", |mesh, _| {
+        FaceOrder::identity(mesh.face_count())
+    }),
+    ("random", |mesh, _| random(mesh.face_count(), 7).into()),
+    ("Tipsify", tipsify),
+    ("K-Cache-Reorder, faithful", |mesh, size| {
+        k_cache_reorder(mesh, size, Mode::Faithful)
+    }),
+    ("K-Cache-Reorder, fast", |mesh, size| {
+        k_cache_reorder(mesh, size, Mode::Fast)
+    }),
+];
+
+fn k_cache_reorder(mesh: &Mesh, size: u32, mode: Mode) -> FaceOrder {
+    let cache = CacheModel::fifo(size);
+    let algorithm = KCacheReorder {
+        cache,
+        mode,
+        ..Default::default()
+    };
+    algorithm.face_order(mesh)
+}
+
+/// Makes the meshes, orders them, prints what came out, writes a GLB and a picture.
+pub(crate) fn run(arguments: &Demo) -> Result<()> {
+    let folder = &arguments.output;
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    let knot = meshes::knot(arguments.faces);
+    let surface = meshes::isosurface(arguments.faces);
+    let inputs = [
+        ("knot", "knotted tube, ring by ring", knot.clone()),
+        (
+            "knot-shuffled",
+            "knotted tube, shuffled",
+            meshes::shuffled(&knot),
+        ),
+        ("isosurface", "isosurface, cell by cell", surface.clone()),
+        (
+            "isosurface-shuffled",
+            "isosurface, shuffled",
+            meshes::shuffled(&surface),
+        ),
+    ];
+    let mut results = Vec::new();
+    for (name, title, mesh) in &inputs {
+        let rows: Vec<Row> = METHODS.iter().map(|method| row(mesh, method)).collect();
+        arguments.report.text(&text(title, mesh, &rows))?;
+        results.push(json!({
+            "name": name,
+            "faces": mesh.face_count(),
+            "vertices": mesh.vertex_count(),
+            "methods": rows.iter().map(Row::json).collect::<Vec<_>>(),
+        }));
+    }
+    let ordered = |mesh: &Mesh| {
+        let mesh = mesh.with_face_order(&k_cache_reorder(mesh, 12, Mode::Fast));
+        mesh.with_vertex_order(&vertex_fetch(mesh.faces(), mesh.vertex_count()))
+    };
+    let mut files = Vec::new();
+    let mut write = |name: &str, bytes: Vec<u8>| {
+        let path = folder.join(name);
+        files.push(path.display().to_string());
+        fs::write(&path, bytes).with_context(|| path.display().to_string())
+    };
+    write("knot.glb", glb::glb(&ordered(&knot), "knot"))?;
+    write("isosurface.glb", glb::glb(&ordered(&surface), "isosurface"))?;
+    let picture = picture::before_and_after(&surface, &ordered(&surface), CacheModel::fifo(12));
+    write("before-after.png", picture)?;
+    arguments.report.json(&json!({
+        "schema": 1,
+        "command": "demo",
+        "meshes": results,
+        "files": files,
+    }))?;
+    let text = format!(
+        "written: {}\nIn the picture, left before, right after: grey faces hit the cache of 12 with \
+         all corners,\nblue ones miss one, yellow ones two, red ones three.",
+        files.join(", ")
+    );
+    Ok(arguments.report.text(&text)?)
+}
+
+/// What one method did to one mesh.
+struct Row {
+    method: &'static str,
+    acmr: [f64; SIZES.len()],
+    atvr: [f64; GPUS.len()],
+    milliseconds: f64,
+}
+
+impl Row {
+    fn json(&self) -> Value {
+        let acmr = SIZES.iter().zip(self.acmr);
+        let acmr = acmr.map(|(size, x)| (format!("fifo:{size}"), json!(x)));
+        let atvr = GPUS.iter().zip(self.atvr);
+        let atvr = atvr.map(|(model, x)| (model.to_string(), json!(x)));
+        json!({
+            "method": self.method,
+            "acmr": Value::Object(acmr.collect()),
+            "atvr": Value::Object(atvr.collect()),
+            "milliseconds": self.milliseconds,
+        })
+    }
+}
+
+/// Orders for each size, counts each order at its size and the first on the GPUs.
+fn row(mesh: &Mesh, &(method, order): &Method) -> Row {
+    let mut times = Vec::new();
+    let orders = SIZES.map(|size| {
+        let start = Instant::now();
+        let order = order(mesh, size);
+        times.push(start.elapsed().as_secs_f64() * 1000.0);
+        order.apply(mesh.faces())
+    });
+    times.sort_by(f64::total_cmp);
+    let acmr = [0, 1, 2].map(|i| cache::acmr(&orders[i], CacheModel::fifo(SIZES[i])));
+    Row {
+        method,
+        acmr,
+        atvr: GPUS.map(|gpu| cache::atvr(&orders[0], gpu)),
+        milliseconds: times[times.len() / 2],
+    }
+}
+
+fn text(title: &str, mesh: &Mesh, rows: &[Row]) -> String {
+    let head = [
+        "",
+        "ACMR 12",
+        "16",
+        "32",
+        "ATVR nvidia",
+        "amd",
+        "intel",
+        "ms",
+    ];
+    let mut lines = vec![head.map(str::to_owned).to_vec()];
+    for row in rows {
+        let ratios = row.acmr.iter().chain(&row.atvr).map(|x| format!("{x:.3}"));
+        let time = match row.method {
+            "as it comes" => String::new(),
+            _ => format!("{:.1}", row.milliseconds),
+        };
+        let name = std::iter::once(row.method.to_owned());
+        lines.push(name.chain(ratios).chain([time]).collect());
+    }
+    format!(
+        "{title}: {} faces, {} vertices\n{}\n",
+        mesh.face_count(),
+        mesh.vertex_count(),
+        columns(&lines)
+    )
+}
