@@ -9,7 +9,7 @@ use meshweft::{FaceOrder, Mesh, VertexOrder};
 /// A trefoil knot as a tube whose rings are shifted and whose diagonals are random.
 pub(super) fn knot(face_count: u32) -> Mesh {
     // Twice as many faces as vertices; the tube is about 22 times as long as it is round.
-    let around = ((f64::from(face_count) / 44.0).sqrt().round() as u32).max(5);
+    let around = (face_count / 44).isqrt().max(5);
     let along = (face_count / (2 * around)).max(8);
     let chance = random((around * along) as usize, 1);
     let chance = |x: u32, y: u32, sides: u32| {
@@ -57,8 +57,8 @@ fn on_knot(t: f32, s: f32) -> [f32; 3] {
 /// An isosurface of three rounded tubes and a ball, by marching tetrahedra: slivers and valences
 /// from 3 to 20, as scanners and simulations make them.
 pub(super) fn isosurface(face_count: u32) -> Mesh {
-    // The surface crosses about `faces / 13` cells of the grid's `n²`.
-    let n = ((f64::from(face_count) / 11.0).sqrt().round() as u32).max(6);
+    // Of the grid's `n³` cells the surface crosses so many that about `11 n²` faces come out.
+    let n = (face_count / 11).isqrt().max(6);
     let point = |[x, y, z]: [u32; 3]| [x, y, z].map(|i| (i as f32 / n as f32 - 0.5) * 4.2);
     let value = |corner: [u32; 3]| {
         let [x, y, z] = point(corner);

@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &LinYu) -> Result<()> {
         "[{elapsed}] figure {msg} {wide_bar} {pos}/{len}",
     )?);
     progress.enable_steady_tick(Duration::from_millis(500));
-    let figures: [(&str, fn(&[Found]) -> Figure); 6] = [
+    let figures: [(&str, MakeFigure); 6] = [
         ("3", fig_3),
         ("6", fig_6),
         ("7", fig_7),
@@ -122,6 +122,9 @@ impl Found {
         self.mesh.face_count() > LARGE
     }
 }
+
+/// Runs what a figure shows on the meshes found.
+type MakeFigure = fn(&[Found]) -> Figure;
 
 /// One figure as text and as JSON.
 struct Figure {

@@ -1,0 +1,141 @@
+//! Every real mesh and every broken file through the program.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::{Folder, data_folder};
+
+/// The files below a folder with one of these endings (`.gz` aside), sorted.
+fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_str().unwrap();
+            let name = name.strip_suffix(".gz").unwrap_or(name).to_owned();
+            if path.is_dir() {
+                folders.push(path);
+            } else if endings.iter().any(|ending| name.ends_with(ending)) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn every_real_mesh_keeps_its_triangles_and_gets_no_worse() {
+    let Some(data) = data_folder("real meshes") else {
+        return;
+    };
+    let mut paths = files(&data.join("meshes"), &[".obj", ".ply", ".off"]);
+    paths.extend(files(&data.join("gltf"), &[".glb", ".gltf"]));
+    // The dragon alone would take most of the time in an unoptimised build.
+    paths.retain(|path| !path.ends_with("dragon.ply.gz"));
+    let mut improved = 0;
+    for (i, input) in paths.iter().enumerate() {
+        let folder = Folder::new(&format!("real-{i}"));
+        let name = input.file_name().unwrap().to_str().unwrap();
+        // Uncompressed output, to compare and to read fast.
+        let name = name.strip_suffix(".gz").unwrap_or(name);
+        let input = input.to_str().unwrap();
+        let before = fs::read(input).unwrap();
+        let report = folder
+            .run(&["optimize", input, "-o", name, "--json"])
+            .json();
+        let acmr = &report["total"]["acmr"];
+        let [was, is] = ["before", "after"].map(|when| acmr[when]["fifo:12"].as_f64().unwrap());
+        assert!(is <= was, "{name}: {was} to {is}");
+        improved += usize::from(is < was);
+        let compared = folder
+            .run(&["compare", input, name, "--cache", "fifo:12", "--json"])
+            .json();
+        assert_eq!(compared["same_triangles"], true, "{name}");
+        assert_eq!(
+            compared["b"]["acmr"]["fifo:12"].as_f64(),
+            Some(is),
+            "{name}"
+        );
+        // The program run on its own output finds nothing to do, in a folder of its own.
+        let written = folder.read(name);
+        fs::create_dir(folder.0.join("again")).unwrap();
+        let again = format!("again/{name}");
+        assert_eq!(
+            folder.run(&["optimize", name, "-o", &again]).code(),
+            0,
+            "{name}"
+        );
+        assert_eq!(folder.read(&again), written, "{name}");
+        assert_eq!(
+            fs::read(input).unwrap(),
+            before,
+            "{name}: the input is untouched"
+        );
+    }
+    eprintln!(
+        "{} real files, {improved} improved, none skipped",
+        paths.len()
+    );
+    assert!(improved > 50);
+}
+
+#[test]
+fn every_broken_file_is_refused_or_read_in_time() {
+    let Some(data) = data_folder("malformed files") else {
+        return;
+    };
+    let folder = Folder::new("malformed");
+    let paths = files(&data.join("malformed"), &[""]);
+    let (mut refused, mut read) = (0, 0);
+    for (i, input) in paths.iter().enumerate() {
+        let before = fs::read(input).unwrap();
+        let name = input.file_name().unwrap().to_str().unwrap();
+        let output = folder.0.join(format!("{i}-{name}"));
+        let mut child = Command::new(env!("CARGO_BIN_EXE_meshweft"))
+            .arg("optimize")
+            .arg(input)
+            .arg("-o")
+            .arg(&output)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Generous: the tests share the machine. A hang is what is looked for.
+        let deadline = Instant::now() + Duration::from_secs(20);
+        let status = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break status;
+            }
+            assert!(Instant::now() < deadline, "{name} hangs");
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        let error = child.wait_with_output().unwrap().stderr;
+        let error = String::from_utf8(error).unwrap();
+        match status.code() {
+            Some(0) => read += 1,
+            Some(1) => {
+                refused += 1;
+                assert!(
+                    error.contains("error: ") && error.contains(name),
+                    "{name}: {error}"
+                );
+                assert!(!output.exists(), "{name}: refused, yet written");
+            }
+            other => panic!("{name}: {other:?} {error}"),
+        }
+        assert_eq!(
+            fs::read(input).unwrap(),
+            before,
+            "{name}: the input is untouched"
+        );
+    }
+    eprintln!(
+        "{} broken files: {refused} refused, {read} read, none skipped",
+        paths.len()
+    );
+    assert_eq!(refused + read, paths.len());
+}
