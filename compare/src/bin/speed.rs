@@ -1,0 +1,360 @@
+//! Times the fast mode against meshoptimizer, one thread, all in one run, as Markdown.
+//!
+//! ```text
+//! cargo run --release --bin speed -- [mesh files]   five meshes of the test data by default
+//!   --all      every mesh of the test data, and the smallest ratios
+//!   --growth   nanoseconds per face at 1 and 10 million faces
+//!   --memory   scratch bytes per face
+//! ```
+//!
+//! Each job goes from faces to newly allocated faces in another order. Repetitions are interleaved
+//! and the median is taken. A small mesh that is ordered again and again flatters everybody: the
+//! processor learns its branches.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use compare::rivals::Meshopt;
+use compare::timing;
+use meshweft::order::{KCacheReorder, baselines};
+use meshweft::{CacheModel, FaceOrder, Mesh, VertexOrder, cache};
+
+/// The system's allocator, counting.
+struct Counting;
+
+static IN_USE: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
+
+fn count_allocation(bytes: usize) {
+    let in_use = IN_USE.fetch_add(bytes, Ordering::Relaxed) + bytes;
+    PEAK.fetch_max(in_use, Ordering::Relaxed);
+}
+
+// SAFETY: every call is passed on unchanged to the system's allocator, which keeps the contract;
+// the counters do not allocate.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count_allocation(layout.size());
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        count_allocation(layout.size());
+        // SAFETY: the caller keeps the contract of `alloc_zeroed`.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        IN_USE.fetch_sub(layout.size(), Ordering::Relaxed);
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(block, layout) }
+    }
+
+    unsafe fn realloc(&self, block: *mut u8, layout: Layout, new_size: usize) -> *mut u8 {
+        // Both blocks may be there at once.
+        count_allocation(new_size);
+        IN_USE.fetch_sub(layout.size(), Ordering::Relaxed);
+        // SAFETY: the caller keeps the contract of `realloc`.
+        unsafe { System.realloc(block, layout, new_size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+const SIZES: [u32; 3] = [12, 16, 32];
+const DEFAULT_MESHES: [&str; 5] = [
+    "fandisk.off.gz",
+    "bunny.ply.gz",
+    "horse.obj.gz",
+    "nefertiti.obj.gz",
+    "dragon.ply.gz",
+];
+
+fn main() -> ExitCode {
+    let (flags, files): (Vec<String>, Vec<String>) =
+        std::env::args().skip(1).partition(|a| a.starts_with("--"));
+    let flags: Vec<&str> = flags.iter().map(String::as_str).collect();
+    let known = ["--all", "--growth", "--memory"];
+    if let Some(unknown) = flags.iter().find(|flag| !known.contains(flag)) {
+        eprintln!("{unknown} is none of {known:?}");
+        return ExitCode::from(2);
+    }
+    if flags.contains(&"--growth") {
+        growth();
+        return ExitCode::SUCCESS;
+    }
+    let mut files: Vec<PathBuf> = files.into_iter().map(PathBuf::from).collect();
+    if files.is_empty() {
+        let Some(data) = compare::data_folder() else {
+            eprintln!("name mesh files, or set MESHWEFT_DATA to the folder of test data");
+            return ExitCode::from(2);
+        };
+        files = match flags.contains(&"--all") {
+            true => compare::mesh_files(&data),
+            false => DEFAULT_MESHES.map(|m| data.join("meshes").join(m)).into(),
+        };
+    }
+    let (vrml, files): (Vec<_>, Vec<_>) = files
+        .into_iter()
+        .partition(|file| file.to_string_lossy().contains(".wrl"));
+    let result = match flags.contains(&"--memory") {
+        true => memory(&files),
+        false => speed(&files),
+    };
+    if !vrml.is_empty() {
+        println!(
+            "Left out, as VRML is not read here: {} mesh(es).",
+            vrml.len()
+        );
+    }
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn fast(size: u32) -> KCacheReorder {
+    KCacheReorder {
+        cache: CacheModel::fifo(size),
+        ..Default::default()
+    }
+}
+
+/// The same surface with faces and vertices in a random order.
+fn shuffled(mesh: &Mesh) -> Mesh {
+    let vertices = VertexOrder::from(baselines::random(mesh.vertex_count(), 1));
+    let faces = FaceOrder::from(baselines::random(mesh.face_count(), 2));
+    mesh.with_vertex_order(&vertices).with_face_order(&faces)
+}
+
+/// One row of figures: ours, meshoptimizer's main optimizer, its Tipsify.
+struct Row {
+    label: String,
+    acmr: [f64; 3],
+    nanoseconds: [f64; 3],
+    /// Ours without putting the faces into the order that was found.
+    order_alone: f64,
+}
+
+impl Row {
+    fn measure(label: String, mesh: &Mesh, size: u32, repetitions: usize) -> Self {
+        let faces = mesh.faces();
+        let algorithm = fast(size);
+        let mut ours = || algorithm.face_order(mesh).apply(faces);
+        let mut vertex_cache = || Meshopt::VertexCache.ordered(mesh);
+        let mut tipsify = || Meshopt::Fifo(size).ordered(mesh);
+        let mut order_alone = || {
+            let _ = std::hint::black_box(algorithm.face_order(mesh));
+            Vec::new()
+        };
+        let acmr = [ours(), vertex_cache(), tipsify()]
+            .map(|ordered| cache::acmr(&ordered, CacheModel::fifo(size)));
+        let seconds = timing::medians(
+            repetitions,
+            [&mut ours, &mut vertex_cache, &mut tipsify, &mut order_alone],
+        );
+        let [ours, vertex_cache, tipsify, order_alone] =
+            seconds.map(|s| s * 1e9 / faces.len().max(1) as f64);
+        Self {
+            label,
+            acmr,
+            nanoseconds: [ours, vertex_cache, tipsify],
+            order_alone,
+        }
+    }
+
+    /// How many times longer meshoptimizer's main optimizer takes than ours.
+    fn against_vertex_cache(&self) -> f64 {
+        self.nanoseconds[1] / self.nanoseconds[0]
+    }
+
+    fn against_tipsify(&self) -> f64 {
+        self.nanoseconds[2] / self.nanoseconds[0]
+    }
+
+    fn print(&self) {
+        let [ours, vertex_cache, tipsify] = self.acmr;
+        let [our_time, their_time, tipsify_time] = self.nanoseconds;
+        println!(
+            "| {} | {ours:.3} | {vertex_cache:.3} | {tipsify:.3} | {our_time:.0} | {:.0} | \
+             {their_time:.0} | {tipsify_time:.0} | {:.2} | {:.2} |",
+            self.label,
+            self.order_alone,
+            self.against_vertex_cache(),
+            self.against_tipsify(),
+        );
+    }
+
+    fn print_title() {
+        println!(
+            "| mesh | faces | K | ACMR ours | meshopt | Tipsify | ns per face ours | \
+             of it the order | meshopt | Tipsify | meshopt / ours | Tipsify / ours |"
+        );
+        println!("|---|{}", "--:|".repeat(11));
+    }
+
+    /// The mean of each figure of the rows, ratios of the mean times included.
+    fn mean(label: String, rows: &[Self]) -> Self {
+        let mean = |figure: &dyn Fn(&Self) -> f64| {
+            rows.iter().map(figure).sum::<f64>() / rows.len().max(1) as f64
+        };
+        Self {
+            label,
+            acmr: [0, 1, 2].map(|i| mean(&|row| row.acmr[i])),
+            nanoseconds: [0, 1, 2].map(|i| mean(&|row| row.nanoseconds[i])),
+            order_alone: mean(&|row| row.order_alone),
+        }
+    }
+}
+
+fn speed(files: &[PathBuf]) -> Result<(), String> {
+    for arrangement in ["in file order", "shuffled"] {
+        println!("### Faces and vertices {arrangement}\n");
+        Row::print_title();
+        let mut rows = SIZES.map(|size| (size, Vec::new()));
+        for file in files {
+            let mut mesh = compare::oracle::read(file)?;
+            if arrangement == "shuffled" {
+                mesh = shuffled(&mesh);
+            }
+            for (size, rows) in &mut rows {
+                let row = measured(file, &mesh, *size);
+                row.print();
+                rows.push(row);
+            }
+        }
+        for (size, rows) in &rows {
+            Row::mean(format!("mean of {} | | {size}", rows.len()), rows).print();
+        }
+        println!();
+        for (size, rows) in &rows {
+            let ratios = |ratio: fn(&Row) -> f64| rows.iter().map(ratio);
+            let least = |ratio: fn(&Row) -> f64| ratios(ratio).fold(f64::INFINITY, f64::min);
+            println!(
+                "K={size}: median of the ratios meshopt / ours {:.2}, Tipsify / ours {:.2}; \
+                 smallest {:.2} and {:.2}; ACMR above meshopt's on {} of {}.",
+                timing::median(ratios(Row::against_vertex_cache).collect()),
+                timing::median(ratios(Row::against_tipsify).collect()),
+                least(Row::against_vertex_cache),
+                least(Row::against_tipsify),
+                rows.iter().filter(|row| row.acmr[0] > row.acmr[1]).count(),
+                rows.len(),
+            );
+        }
+        println!();
+    }
+    Ok(())
+}
+
+fn measured(file: &Path, mesh: &Mesh, size: u32) -> Row {
+    let name = compare::mesh_name(file);
+    let label = format!("{name} | {} | {size}", mesh.face_count());
+    // A few million faces in all: enough for a median, and the largest mesh five times.
+    let repetitions = (1_500_000 / mesh.face_count().max(1)).clamp(5, 25) | 1;
+    Row::measure(label, mesh, size, repetitions)
+}
+
+fn memory(files: &[PathBuf]) -> Result<(), String> {
+    println!("| mesh | faces | vertices | K | scratch bytes per face |");
+    println!("|---|--:|--:|--:|--:|");
+    for file in files {
+        let mesh = compare::oracle::read(file)?;
+        for (cache, size) in SIZES.map(|size| (CacheModel::fifo(size), size)) {
+            let algorithm = KCacheReorder {
+                cache,
+                ..Default::default()
+            };
+            println!(
+                "| {} | {} | {} | {size} | {:.2} |",
+                compare::mesh_name(file),
+                mesh.face_count(),
+                mesh.vertex_count(),
+                scratch_bytes_per_face(&algorithm, &mesh),
+            );
+        }
+    }
+    println!(
+        "\nThe most in use at once, less the result: 4 bytes a face for the permutation and 1"
+    );
+    println!("for the rotation.");
+    Ok(())
+}
+
+fn scratch_bytes_per_face(algorithm: &KCacheReorder, mesh: &Mesh) -> f64 {
+    let before = IN_USE.load(Ordering::Relaxed);
+    PEAK.store(before, Ordering::Relaxed);
+    let order = algorithm.face_order(mesh);
+    let peak = PEAK.load(Ordering::Relaxed) - before;
+    let result = order.new_to_old().len() * 4 + order.rotations().len();
+    (peak - result) as f64 / mesh.face_count().max(1) as f64
+}
+
+fn growth() {
+    println!("A square grid, the diagonal of each quad at random.\n");
+    Row::print_title();
+    let mut rows = Vec::new();
+    for arrangement in ["in blocks", "shuffled"] {
+        for side in [707, 2236] {
+            let mut mesh = irregular_grid(side);
+            if arrangement == "shuffled" {
+                mesh = shuffled(&mesh);
+            }
+            let label = format!("{arrangement} | {} | 12", mesh.face_count());
+            let row = Row::measure(label, &mesh, 12, 3);
+            row.print();
+            rows.push(row);
+        }
+    }
+    println!();
+    for (arrangement, rows) in ["in blocks", "shuffled"].iter().zip(rows.chunks(2)) {
+        let ratio = |i: usize| rows[1].nanoseconds[i] / rows[0].nanoseconds[i];
+        println!(
+            "{arrangement}: nanoseconds per face at 10 million over 1 million faces: \
+             ours {:.2}, meshopt {:.2}, Tipsify {:.2}.",
+            ratio(0),
+            ratio(1),
+            ratio(2),
+        );
+    }
+    let mesh = irregular_grid(2236);
+    let scratch = scratch_bytes_per_face(&fast(12), &mesh);
+    println!("Scratch at 10 million faces: {scratch:.2} bytes per face.");
+}
+
+/// `side` × `side` quads, each cut along a random diagonal, as a scanner might deliver them: blocks
+/// of 32 × 32 quads row by row, the faces inside a block shuffled, the vertices by first use.
+fn irregular_grid(side: u32) -> Mesh {
+    const BLOCK: u32 = 32;
+    let quad_count = side as usize * side as usize;
+    // The parity of a random number: a random bit a quad.
+    let random = baselines::random(quad_count, 3);
+    let mut faces = Vec::with_capacity(2 * quad_count);
+    let blocks = side.div_ceil(BLOCK);
+    for block in 0..blocks * blocks {
+        let (left, top) = (block % blocks * BLOCK, block / blocks * BLOCK);
+        let mut in_block = Vec::new();
+        for y in top..(top + BLOCK).min(side) {
+            for x in left..(left + BLOCK).min(side) {
+                let at = y * (side + 1) + x;
+                let [a, b, c, d] = [at, at + 1, at + side + 1, at + side + 2];
+                let flipped = random.new_to_old()[(y * side + x) as usize].is_multiple_of(2);
+                in_block.extend(match flipped {
+                    true => [[a, b, d], [a, d, c]],
+                    false => [[a, b, c], [c, b, d]],
+                });
+            }
+        }
+        let order = baselines::random(in_block.len(), u64::from(block));
+        faces.extend(order.apply(&in_block));
+    }
+    let vertex_count = (side as usize + 1) * (side as usize + 1);
+    let by_use = meshweft::order::vertex_fetch(&faces, vertex_count);
+    Mesh::connectivity_only(vertex_count, by_use.renumber(&faces)).expect("a grid is in range")
+}

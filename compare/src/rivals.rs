@@ -1,0 +1,107 @@
+//! Other people's analyzers and orders.
+//!
+//! All rely on indices in range, which a [`Mesh`] vouches for.
+
+use meshopt::ffi;
+use meshweft::Mesh;
+use meshweft::cache::BatchModel;
+
+/// How many vertices meshoptimizer's analyzer counts as transformed.
+///
+/// # Panics
+/// If the model is one that the analyzer does not take.
+#[must_use]
+pub fn vertices_transformed(mesh: &Mesh, model: BatchModel) -> u64 {
+    assert!(model.cache_size >= 3 && (model.batch_vertices == 0 || model.batch_vertices >= 3));
+    // SAFETY: the faces of a mesh are consecutive indices below its vertex count, and the sizes
+    // are those that the function asks for.
+    let statistics = unsafe {
+        ffi::meshopt_analyzeVertexCache(
+            mesh.faces().as_ptr().cast(),
+            mesh.face_count() * 3,
+            mesh.vertex_count(),
+            model.cache_size,
+            model.batch_vertices,
+            model.batch_faces,
+        )
+    };
+    u64::from(statistics.vertices_transformed)
+}
+
+/// How many bytes of vertex records meshoptimizer's analyzer counts as fetched.
+///
+/// # Panics
+/// If `vertex_size` is not from 1 to 256.
+#[must_use]
+pub fn bytes_fetched(mesh: &Mesh, vertex_size: usize) -> u64 {
+    assert!((1..=256).contains(&vertex_size));
+    // SAFETY: the faces of a mesh are consecutive indices below its vertex count, and the record
+    // size is in the range that the function asks for.
+    let statistics = unsafe {
+        ffi::meshopt_analyzeVertexFetch(
+            mesh.faces().as_ptr().cast(),
+            mesh.face_count() * 3,
+            mesh.vertex_count(),
+            vertex_size,
+        )
+    };
+    u64::from(statistics.bytes_fetched)
+}
+
+/// An order by meshoptimizer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Meshopt {
+    /// Its main optimizer, which does not ask for the cache's size.
+    VertexCache,
+    /// The one that favours strips.
+    Strip,
+    /// Tipsify for a FIFO cache of this size.
+    Fifo(u32),
+}
+
+impl Meshopt {
+    /// The faces in its order.
+    ///
+    /// # Panics
+    /// If the cache has less than three entries.
+    #[must_use]
+    pub fn ordered(self, mesh: &Mesh) -> Vec<[u32; 3]> {
+        let (index_count, vertex_count) = (mesh.face_count() * 3, mesh.vertex_count());
+        let mut ordered = vec![[0_u32; 3]; mesh.face_count()];
+        let (to, from) = (ordered.as_mut_ptr().cast(), mesh.faces().as_ptr().cast());
+        // SAFETY: `from` points to `index_count` indices, which are below `vertex_count` in every
+        // mesh, `to` to room for as many, and the two do not overlap.
+        unsafe {
+            match self {
+                Self::VertexCache => {
+                    ffi::meshopt_optimizeVertexCache(to, from, index_count, vertex_count);
+                }
+                Self::Strip => {
+                    ffi::meshopt_optimizeVertexCacheStrip(to, from, index_count, vertex_count);
+                }
+                Self::Fifo(size) => {
+                    assert!(size >= 3, "a face needs three entries");
+                    ffi::meshopt_optimizeVertexCacheFifo(to, from, index_count, vertex_count, size);
+                }
+            }
+        }
+        ordered
+    }
+}
+
+/// The faces in the order of Tom Forsyth's *Linear-Speed Vertex Cache Optimisation* (2006), by the
+/// `forsyth` crate at its defaults.
+///
+/// # Panics
+/// If the crate refuses the faces.
+#[must_use]
+pub fn forsyth(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    if faces.is_empty() {
+        return Vec::new();
+    }
+    let ordered = forsyth::order_triangles(faces.as_flattened()).expect("faces in range");
+    ordered
+        .chunks_exact(3)
+        .map(|c| [c[0], c[1], c[2]])
+        .collect()
+}

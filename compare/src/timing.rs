@@ -1,0 +1,29 @@
+//! Medians of interleaved repetitions.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+/// The median time of each job in seconds, from `repetitions` rounds that run every job once.
+///
+/// Rounds are interleaved so that whatever else the machine does meets all jobs alike.
+pub fn medians<const N: usize, T>(
+    repetitions: usize,
+    mut jobs: [&mut dyn FnMut() -> T; N],
+) -> [f64; N] {
+    let mut seconds = [const { Vec::new() }; N];
+    for _ in 0..repetitions.max(1) {
+        for (job, seconds) in jobs.iter_mut().zip(&mut seconds) {
+            let start = Instant::now();
+            black_box(job());
+            seconds.push(start.elapsed().as_secs_f64());
+        }
+    }
+    seconds.map(median)
+}
+
+/// The middle value, the upper of two; 0 of none.
+#[must_use]
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
