@@ -18,8 +18,6 @@ const DEFAULT_MESHES: [&str; 5] = [
     "nefertiti.obj.gz",
     "dragon.ply.gz",
 ];
-/// The faithful mode runs every candidate; on more faces than this it would take minutes.
-const MOST_FACES_FOR_FAITHFUL: usize = 200_000;
 
 fn main() -> ExitCode {
     let mut files: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
@@ -53,7 +51,6 @@ fn main() -> ExitCode {
     println!();
     println!("K: misses per face (ACMR) of a FIFO cache. NVIDIA, AMD, Intel: misses per vertex");
     println!("(ATVR) of the batch models that meshoptimizer's analyzer is run with.");
-    println!("Faithful orders are left out above {MOST_FACES_FOR_FAITHFUL} faces.");
     ExitCode::SUCCESS
 }
 
@@ -95,11 +92,9 @@ fn orders(mesh: &Mesh) -> Vec<(String, Vec<[u32; 3]>)> {
             k_cache_reorder(Mode::Fast, size),
         ));
     }
-    if faces.len() <= MOST_FACES_FOR_FAITHFUL {
-        for size in [12, 16] {
-            let name = format!("faithful, K={size}");
-            orders.push((name, k_cache_reorder(Mode::Faithful, size)));
-        }
+    for size in [12, 16] {
+        let name = format!("faithful, K={size}");
+        orders.push((name, k_cache_reorder(Mode::Faithful, size)));
     }
     orders
 }

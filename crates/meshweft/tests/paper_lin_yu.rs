@@ -1,0 +1,123 @@
+//! The tables of Lin and Yu 2006, on the paper's own meshes where they are at hand.
+#![cfg(feature = "files")]
+
+use std::path::{Path, PathBuf};
+
+use meshweft::files::Document;
+use meshweft::order::{KCacheReorder, Mode};
+use meshweft::{CacheModel, Limits, Mesh, cache};
+
+/// The folder of real meshes, or `None` with a loud word.
+fn meshes() -> Option<PathBuf> {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    let folder = std::env::var_os("MESHWEFT_DATA").map_or(beside, PathBuf::from);
+    let folder = folder.join("meshes");
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    let required = std::env::var_os("MESHWEFT_REQUIRE_DATA").is_some();
+    assert!(!required, "no meshes in {}", folder.display());
+    eprintln!("SKIPPED: no meshes in {}", folder.display());
+    None
+}
+
+fn open(folder: &Path, name: &str) -> Mesh {
+    let path = folder.join(name);
+    let document = Document::open(&path, &Limits::default()).unwrap();
+    document.meshes()[0].mesh.clone()
+}
+
+fn ordered(mesh: &Mesh, cache: CacheModel, mode: Mode) -> Vec<[u32; 3]> {
+    let algorithm = KCacheReorder {
+        cache,
+        mode,
+        ..Default::default()
+    };
+    algorithm.face_order(mesh).apply(mesh.faces())
+}
+
+#[test]
+fn the_original_column_comes_out_to_the_last_digit() {
+    let Some(folder) = meshes() else { return };
+    let printed = [
+        ("eight.off.gz", "0.878"),
+        ("mannequin.off.gz", "0.935"),
+        ("fandisk.off.gz", "1.023"),
+        ("beethoven.ply.gz", "0.975"),
+        ("bunny.ply.gz", "2.085"),
+        ("feline.off.gz", "1.376"),
+        ("horse.obj.gz", "2.777"),
+    ];
+    for (name, expected) in printed {
+        let mesh = open(&folder, name);
+        let acmr = cache::acmr(mesh.faces(), CacheModel::fifo(12));
+        assert_eq!(format!("{acmr:.3}"), expected, "{name}");
+    }
+}
+
+#[test]
+fn the_faithful_mode_meets_both_columns() {
+    let Some(folder) = meshes() else { return };
+    // Printed FIFO and controllable. The dragon is held to them by the program's `paper`.
+    let printed = [
+        ("eight.off.gz", 0.633, 0.635),
+        ("fandisk.off.gz", 0.625, 0.625),
+        ("bunny.ply.gz", 0.628, 0.635),
+        ("horse.obj.gz", 0.630, 0.631),
+        ("feline.off.gz", 0.649, 0.621),
+    ];
+    for (name, fifo, control) in printed {
+        let mesh = open(&folder, name);
+        let model = CacheModel::fifo(12);
+        let ours = cache::acmr(&ordered(&mesh, model, Mode::Faithful), model);
+        assert!((ours - fifo).abs() <= 0.006, "{name} FIFO: {ours}");
+        let algorithm = KCacheReorder {
+            cache: CacheModel::controllable(12),
+            mode: Mode::Faithful,
+            ..Default::default()
+        };
+        let (order, schedule) = algorithm.schedule(&mesh);
+        let pushes = schedule.play(&order.apply(mesh.faces()), 12).unwrap();
+        let ours = pushes as f64 / mesh.face_count() as f64;
+        assert!(
+            (ours - control).abs() <= 0.006,
+            "{name} controllable: {ours}"
+        );
+    }
+}
+
+#[test]
+fn the_fast_mode_is_no_worse_than_the_paper() {
+    let Some(folder) = meshes() else { return };
+    // Measured: .620 .623 .626 .649 at 12 entries. A change that costs quality shows here first.
+    let most = [
+        ("fandisk.off.gz", 0.625),
+        ("bunny.ply.gz", 0.628),
+        ("horse.obj.gz", 0.630),
+        ("nefertiti.obj.gz", 0.652),
+    ];
+    for (name, most) in most {
+        let mesh = open(&folder, name);
+        let model = CacheModel::fifo(12);
+        let ours = cache::acmr(&ordered(&mesh, model, Mode::Fast), model);
+        assert!(ours <= most, "{name}: {ours}");
+    }
+    let names = ["bunny.ply.gz", "horse.obj.gz", "fandisk.off.gz"];
+    let (mut scheduled, mut belady) = (0.0, 0.0);
+    for name in names {
+        let mesh = open(&folder, name);
+        let model = CacheModel::controllable(12);
+        let algorithm = KCacheReorder {
+            cache: model,
+            ..Default::default()
+        };
+        let (order, schedule) = algorithm.schedule(&mesh);
+        let faces = order.apply(mesh.faces());
+        scheduled += schedule.play(&faces, 12).unwrap() as f64 / faces.len() as f64 / 3.0;
+        belady += cache::acmr(&faces, model) / 3.0;
+    }
+    assert!(
+        scheduled <= 0.600 && belady <= 0.597,
+        "{scheduled} {belady}"
+    );
+}
