@@ -89,7 +89,10 @@ pub(crate) struct Optimize {
     /// Weight of the distance from the front of a FIFO cache
     #[arg(long, value_name = "WEIGHT", default_value_t = 1.3)]
     pub(crate) k3: f64,
-    /// Write the permutation as JSON: out[i] = in[new_to_old[i]]
+    /// Write what was moved as JSON
+    ///
+    /// Read it as `out[i] = in[new_to_old[i]]`, for faces and vertices; new corner j of a face is
+    /// its old corner (j + rotation) % 3.
     #[arg(long, value_name = "FILE")]
     pub(crate) write_permutation: Option<PathBuf>,
     /// Go on with the next file when one fails

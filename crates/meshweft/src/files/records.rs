@@ -86,7 +86,7 @@ impl Spans {
 #[derive(Debug, Default)]
 pub(super) struct FaceRecords {
     pub(super) faces: Vec<[u32; 3]>,
-    /// See [`MeshEntry::polygons`]; `None` as long as each record is one triangle.
+    /// See [`MeshEntry::polygons`](super::MeshEntry::polygons); `None` as long as each record is one triangle.
     pub(super) polygons: Option<Vec<u32>>,
     count: usize,
 }

@@ -1,7 +1,7 @@
 //! Rendering sequences: in which order to draw the faces, and to store the vertices.
 //!
 //! [`KCacheReorder`] is the method of this toolkit; [`baselines`] are what it is compared with.
-//! Faces come first, then [`vertex_fetch`] puts the vertices in the order of their first use.
+//! Faces come first, then [`vertex_fetch()`] puts the vertices in the order of their first use.
 
 pub mod baselines;
 mod k_cache_reorder;

@@ -156,9 +156,13 @@ impl<'a> LiveFaces<'a> {
         let slot = stack_of(self.vertices[vertex as usize].live);
         let stack = &mut self.dead_ends[slot];
         if stack.len() == stack.capacity() {
-            // Entries whose vertex was drawn further since then are of no use.
+            // Entries whose vertex was drawn further since then are of no use. If few go, there has
+            // to be more room, or the next entries would sift the stack again and again.
             let vertices = &self.vertices;
             stack.retain(|&v| stack_of(vertices[v as usize].live) == slot);
+            if stack.len() > stack.capacity() / 2 {
+                stack.reserve(stack.capacity());
+            }
         }
         stack.push(vertex);
         self.stranded = true;
