@@ -3,7 +3,10 @@
 //!
 //! `cargo run --release --bin speed` times them, `--bin quality` counts their misses.
 
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use meshweft::Mesh;
 
 pub mod oracle;
 pub mod rivals;
@@ -34,7 +37,7 @@ pub fn data_folder() -> Option<PathBuf> {
 /// # Panics
 /// If the folder cannot be listed.
 #[must_use]
-pub fn mesh_files(data: &std::path::Path) -> Vec<PathBuf> {
+pub fn mesh_files(data: &Path) -> Vec<PathBuf> {
     let folder = data.join("meshes");
     let entries = std::fs::read_dir(&folder).expect("the folder of meshes can be listed");
     let mut files: Vec<PathBuf> = entries
@@ -44,9 +47,63 @@ pub fn mesh_files(data: &std::path::Path) -> Vec<PathBuf> {
     files
 }
 
+/// The five meshes that tables are made of where no files are named.
+#[must_use]
+pub fn default_mesh_files(data: &Path) -> Vec<PathBuf> {
+    let names = [
+        "fandisk.off.gz",
+        "bunny.ply.gz",
+        "horse.obj.gz",
+        "nefertiti.obj.gz",
+        "dragon.ply.gz",
+    ];
+    let folder = data.join("meshes");
+    names.map(|name| folder.join(name)).into()
+}
+
+/// Whether it is a VRML file, which [`oracle`] does not read.
+#[must_use]
+pub fn is_vrml(file: &Path) -> bool {
+    file.to_string_lossy().contains(".wrl")
+}
+
+/// Runs `check` on the name and the mesh of every file in the folder of real meshes, and says past
+/// the test harness on how many, and which were skipped.
+///
+/// # Panics
+/// As [`data_folder`], and if a mesh cannot be read.
+pub fn for_each_mesh(what: &str, mut check: impl FnMut(&str, &Mesh)) {
+    let (mut ran, mut skipped) = (0, Vec::new());
+    if let Some(data) = data_folder() {
+        for file in mesh_files(&data) {
+            let name = mesh_name(&file);
+            if is_vrml(&file) {
+                skipped.push(name);
+                continue;
+            }
+            let mesh = oracle::read(&file).unwrap_or_else(|error| panic!("{error}"));
+            check(&name, &mesh);
+            ran += 1;
+        }
+    }
+    say(&match ran {
+        0 => format!("{what}: no test data, skipped all meshes"),
+        _ => format!(
+            "{what}: {ran} meshes, skipped {} (VRML is not read here): {skipped:?}",
+            skipped.len()
+        ),
+    });
+}
+
+/// Writes a line that the test harness does not hold back.
+pub fn say(line: &str) {
+    // Nobody is there to be told if stderr is closed.
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
 /// A mesh's name for a row: the file name without its endings.
 #[must_use]
-pub fn mesh_name(file: &std::path::Path) -> String {
+pub fn mesh_name(file: &Path) -> String {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     name.split('.').next().unwrap_or_default().to_owned()
 }

@@ -1,7 +1,6 @@
 //! Our counts equal meshoptimizer's analyzer to the miss, and a replay written a third time.
 
 use std::collections::VecDeque;
-use std::io::Write;
 
 use compare::rivals::{bytes_fetched, vertices_transformed};
 use meshweft::cache::{self, BatchModel};
@@ -131,38 +130,19 @@ fn ten_thousand_random_cases_agree() {
 
 #[test]
 fn every_real_mesh_agrees_in_every_order() {
-    let Some(data) = compare::data_folder() else {
-        let _ = writeln!(
-            std::io::stderr(),
-            "analyzer: no test data, skipped all meshes"
-        );
-        return;
-    };
-    let (mut ran, mut skipped) = (0, Vec::new());
-    for file in compare::mesh_files(&data) {
-        if file.to_string_lossy().contains(".wrl") {
-            skipped.push(compare::mesh_name(&file));
-            continue;
-        }
-        let mesh = compare::oracle::read(&file).unwrap();
-        assert_agreement(&mesh);
+    compare::for_each_mesh("analyzer", |_, mesh| {
+        assert_agreement(mesh);
         for size in [12, 16, 32] {
             let algorithm = KCacheReorder {
                 cache: CacheModel::fifo(size),
                 ..Default::default()
             };
-            let ordered = mesh.with_face_order(&algorithm.face_order(&mesh));
+            let ordered = mesh.with_face_order(&algorithm.face_order(mesh));
             assert_agreement(&ordered);
             let by_use = vertex_fetch(ordered.faces(), ordered.vertex_count());
             assert_same_fetches(&ordered.with_vertex_order(&by_use), 32);
         }
-        ran += 1;
-    }
-    let _ = writeln!(
-        std::io::stderr(),
-        "analyzer: {ran} meshes, skipped {} (VRML is not read here): {skipped:?}",
-        skipped.len()
-    );
+    });
 }
 
 fn assert_agreement(mesh: &Mesh) {

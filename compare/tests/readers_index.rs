@@ -1,10 +1,8 @@
 //! The independent reader agrees with the index of the test data.
 
-use std::io::Write;
-
 use meshweft::{CacheModel, cache};
 
-/// `value` cut to as many places as the index prints, which is four less trailing zeros.
+/// `value` in as many places as the index prints, which is four less trailing zeros.
 fn as_printed(value: f64) -> String {
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -13,10 +11,7 @@ fn as_printed(value: f64) -> String {
 #[test]
 fn every_mesh_of_the_index_has_its_counts_and_misses() {
     let Some(data) = compare::data_folder() else {
-        let _ = writeln!(
-            std::io::stderr(),
-            "readers_index: no test data, skipped all"
-        );
+        compare::say("readers_index: no test data, skipped all meshes");
         return;
     };
     let index = std::fs::read_to_string(data.join("index.tsv")).expect("the index is text");
@@ -32,7 +27,7 @@ fn every_mesh_of_the_index_has_its_counts_and_misses() {
         if !file.starts_with("meshes/") {
             continue;
         }
-        if file.contains(".wrl") {
+        if compare::is_vrml(file.as_ref()) {
             skipped.push(file);
             continue;
         }
@@ -45,10 +40,9 @@ fn every_mesh_of_the_index_has_its_counts_and_misses() {
         }
         ran += 1;
     }
-    let _ = writeln!(
-        std::io::stderr(),
+    compare::say(&format!(
         "readers_index: {ran} meshes, skipped {} (VRML is not read here): {skipped:?}",
         skipped.len()
-    );
+    ));
     assert!(ran > 0, "the index names meshes");
 }

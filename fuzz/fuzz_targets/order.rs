@@ -1,56 +1,82 @@
+//! Any bytes as settings and faces: every order is a permutation, and every schedule plays.
+//!
+//! Byte 0 and 1: cache size. Byte 2: vertex count less one. Byte 3: bit 0 keeps the corners, bit 1
+//! lets byte 4 choose the first focus, bit 2 makes each of the first 24 faces a fan of 64, so that few
+//! bytes make a hub. Byte 5 to 7: weights in quarters. Then three bytes a face.
 #![no_main]
-//! Any faces: every order is a permutation, every schedule can be played.
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::order::baselines::tipsify;
-use meshweft::order::{KCacheReorder, Mode};
-use meshweft::{CacheModel, FaceOrder, Mesh, cache};
+use meshweft::order::{KCacheReorder, Mode, baselines, vertex_fetch};
+use meshweft::{CacheModel, FaceOrder, Mesh, Permutation, cache};
 
 fuzz_target!(|data: &[u8]| {
-    let Some((&[vertices, size, flags], corners)) = data.split_first_chunk() else {
+    let Some((settings, corners)) = data.split_first_chunk::<8>() else {
         return;
     };
-    let vertex_count = u32::from(vertices) + 1;
-    let faces: Vec<[u32; 3]> = corners
-        .chunks_exact(3)
-        .take(500)
-        .map(|c| [c[0], c[1], c[2]].map(|v| u32::from(v) % vertex_count))
-        .collect();
-    let mesh = Mesh::connectivity_only(vertex_count as usize, faces).expect("in range");
-    let size = u32::from(size).max(3);
-    let controllable = flags & 1 != 0;
-    let algorithm = KCacheReorder {
-        cache: match controllable {
-            true => CacheModel::controllable(size),
-            false => CacheModel::fifo(size),
-        },
-        mode: if flags & 2 != 0 {
-            Mode::Faithful
-        } else {
-            Mode::Fast
-        },
-        keep_corners: flags & 4 != 0,
-        first_focus: (flags & 8 != 0).then(|| u32::from(flags) % vertex_count),
-        ..Default::default()
+    let [size_low, size_high, vertices, flags, focus, weights @ ..] = *settings;
+    let size = 3 + u32::from(u16::from_le_bytes([size_low, size_high]) % 1022);
+    let mesh = mesh(corners, u32::from(vertices) + 1, flags & 4 != 0);
+    let weights = weights.map(|weight| f64::from(i16::from(weight) - 64) / 4.0);
+    let [k1, k2, k3] = weights;
+    let first_focus = u32::from(focus) % (u32::from(vertices) + 1);
+    let algorithm = |cache, mode| KCacheReorder {
+        cache,
+        mode,
+        k1,
+        k2,
+        k3,
+        keep_corners: flags & 1 != 0,
+        first_focus: (flags & 2 != 0).then_some(first_focus),
     };
-    let (order, schedule) = algorithm.schedule(&mesh);
-    check(&mesh, &order);
-    check(&mesh, &tipsify(&mesh, size));
-    let ordered = order.apply(mesh.faces());
-    let best = cache::misses(&ordered, algorithm.cache);
-    if controllable {
-        let pushes = schedule.play(&ordered, size).expect("a schedule that fits");
-        assert!(best <= pushes);
+    let (fifo, controllable) = (CacheModel::fifo(size), CacheModel::controllable(size));
+    check_schedule(&mesh, &algorithm(fifo, Mode::Fast));
+    check_schedule(&mesh, &algorithm(controllable, Mode::Fast));
+    // The faithful mode runs every vertex in the cache at every step.
+    if mesh.face_count() <= 200 {
+        check_schedule(&mesh, &algorithm(fifo, Mode::Faithful));
+        check_schedule(&mesh, &algorithm(controllable, Mode::Faithful));
     }
-    assert!(best <= 3 * mesh.face_count() as u64);
+    check(&mesh, &baselines::tipsify(&mesh, size));
+    let by_use = vertex_fetch(mesh.faces(), mesh.vertex_count());
+    Permutation::new(by_use.new_to_old().to_vec()).expect("each vertex once");
 });
 
-fn check(mesh: &Mesh, order: &FaceOrder) {
-    let least_first = |[a, b, c]: [u32; 3]| [[a, b, c], [b, c, a], [c, a, b]].into_iter().min();
-    let sorted = |faces: &[[u32; 3]]| {
-        let mut sorted: Vec<_> = faces.iter().map(|&face| least_first(face)).collect();
-        sorted.sort_unstable();
-        sorted
+fn mesh(corners: &[u8], vertex_count: u32, fans: bool) -> Mesh {
+    let named = corners.chunks_exact(3);
+    let faces = named.map(|c| [c[0], c[1], c[2]].map(|v| u32::from(v) % vertex_count));
+    let (vertex_count, faces): (u32, Vec<[u32; 3]>) = match fans {
+        false => (vertex_count, faces.collect()),
+        true => {
+            // Around the first corner, over vertices that all fans share.
+            let rim = |i: u32| vertex_count + i % 512;
+            let fan = |[hub, from, _]: [u32; 3]| {
+                (from * 64..from * 64 + 64).map(move |i| [hub, rim(i), rim(i * 7 + 1)])
+            };
+            (vertex_count + 512, faces.take(24).flat_map(fan).collect())
+        }
     };
-    assert_eq!(sorted(&order.apply(mesh.faces())), sorted(mesh.faces()));
+    Mesh::connectivity_only(vertex_count as usize, faces).expect("indices are in range")
+}
+
+fn check(mesh: &Mesh, order: &FaceOrder) {
+    assert_eq!(order.len(), mesh.face_count());
+    Permutation::new(order.new_to_old().to_vec()).expect("each face once");
+    assert!(order.rotations().iter().all(|&rotation| rotation < 3));
+}
+
+fn check_schedule(mesh: &Mesh, algorithm: &KCacheReorder) {
+    let (order, schedule) = algorithm.schedule(mesh);
+    check(mesh, &order);
+    let is_fast_fifo =
+        matches!(algorithm.cache, CacheModel::Fifo { .. }) && algorithm.mode == Mode::Fast;
+    if is_fast_fifo {
+        assert!(schedule.events.is_empty());
+        return;
+    }
+    let size = algorithm.cache.size();
+    let ordered = order.apply(mesh.faces());
+    let pushes = schedule
+        .play(&ordered, size)
+        .expect("the schedule can be played");
+    assert!(cache::misses(&ordered, CacheModel::controllable(size)) <= pushes);
 }

@@ -11,13 +11,6 @@ use meshweft::{CacheModel, Mesh, cache};
 
 const SIZES: [u32; 6] = [10, 12, 16, 24, 32, 64];
 const GPUS: [CacheModel; 3] = [CacheModel::NVIDIA, CacheModel::AMD, CacheModel::INTEL];
-const DEFAULT_MESHES: [&str; 5] = [
-    "fandisk.off.gz",
-    "bunny.ply.gz",
-    "horse.obj.gz",
-    "nefertiti.obj.gz",
-    "dragon.ply.gz",
-];
 
 fn main() -> ExitCode {
     let mut files: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
@@ -26,7 +19,7 @@ fn main() -> ExitCode {
             eprintln!("name mesh files, or set MESHWEFT_DATA to the folder of test data");
             return ExitCode::from(2);
         };
-        files.extend(DEFAULT_MESHES.map(|name| data.join("meshes").join(name)));
+        files = compare::default_mesh_files(&data);
     }
     let sizes = SIZES.map(|size| format!("K={size}")).join(" | ");
     println!("| mesh | order | {sizes} | NVIDIA | AMD | Intel |");

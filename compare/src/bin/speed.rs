@@ -66,13 +66,6 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 const SIZES: [u32; 3] = [12, 16, 32];
-const DEFAULT_MESHES: [&str; 5] = [
-    "fandisk.off.gz",
-    "bunny.ply.gz",
-    "horse.obj.gz",
-    "nefertiti.obj.gz",
-    "dragon.ply.gz",
-];
 
 fn main() -> ExitCode {
     let (flags, files): (Vec<String>, Vec<String>) =
@@ -95,12 +88,11 @@ fn main() -> ExitCode {
         };
         files = match flags.contains(&"--all") {
             true => compare::mesh_files(&data),
-            false => DEFAULT_MESHES.map(|m| data.join("meshes").join(m)).into(),
+            false => compare::default_mesh_files(&data),
         };
     }
-    let (vrml, files): (Vec<_>, Vec<_>) = files
-        .into_iter()
-        .partition(|file| file.to_string_lossy().contains(".wrl"));
+    let (vrml, files): (Vec<_>, Vec<_>) =
+        files.into_iter().partition(|file| compare::is_vrml(file));
     let result = match flags.contains(&"--memory") {
         true => memory(&files),
         false => speed(&files),
