@@ -2,7 +2,9 @@
 
 use crate::cache::MAX_CACHE_SIZE;
 
-/// `C(v) = k1·C1 − k2·C2 + k3·C3` times a common denominator.
+/// `C(v) = k1·C1 − k2·C2 + k3·C3` times a common denominator, less what all vertices share.
+///
+/// With `C3 = (K − age) / K`, `k3` is the same for all and drops out of comparisons.
 ///
 /// Sums wrap around where absurd weights meet absurd valences: such an order is poor, but it is
 /// an order, and the same on every platform.
@@ -10,9 +12,10 @@ use crate::cache::MAX_CACHE_SIZE;
 pub(super) struct Costs {
     push: i64,
     face: i64,
-    /// Cost of a remaining place in the cache: `k3 / K`.
-    place: i64,
-    size: i64,
+    /// What a push since it entered takes off a vertex's cost: `k3 / K`.
+    age: i64,
+    /// A push less the age that it adds.
+    aging_push: i64,
 }
 
 /// Weights are rounded to multiples of one over this.
@@ -23,26 +26,32 @@ impl Costs {
         #[expect(clippy::cast_possible_truncation, reason = "clamped to 2^20 before")]
         let fixed = |k: f64| (k.clamp(-1024.0, 1024.0) * DENOMINATOR).round() as i64;
         let size = i64::from(size.min(MAX_CACHE_SIZE));
+        let (push, age) = (fixed(k1) * size, fixed(k3));
         Self {
-            push: fixed(k1) * size,
+            push,
             face: fixed(k2) * size,
-            place: fixed(k3),
-            size,
+            age,
+            aging_push: push - age,
         }
     }
 
-    /// The cost if `pushes` are needed, from the state before them.
+    /// The cost if `pushes` are needed, none of the vertex itself, from the state before them.
     #[inline]
     pub(super) fn of(&self, pushes: u32, faces: u32, age: u32) -> i64 {
-        self.after_run(pushes, faces, age.wrapping_add(pushes))
+        Self::sum(self.aging_push, self.face, self.age, pushes, faces, age)
     }
 
     /// The cost from the state after the vertex was finished.
     #[inline]
     pub(super) fn after_run(&self, pushes: u32, faces: u32, age: u32) -> i64 {
-        let pushes = self.push.wrapping_mul(i64::from(pushes));
-        let faces = self.face.wrapping_mul(i64::from(faces));
-        let place = self.place.wrapping_mul(self.size - i64::from(age));
-        pushes.wrapping_sub(faces).wrapping_add(place)
+        Self::sum(self.push, self.face, self.age, pushes, faces, age)
+    }
+
+    #[inline]
+    fn sum(k1: i64, k2: i64, k3: i64, pushes: u32, faces: u32, age: u32) -> i64 {
+        let pushes = k1.wrapping_mul(i64::from(pushes));
+        let faces = k2.wrapping_mul(i64::from(faces));
+        let age = k3.wrapping_mul(i64::from(age));
+        pushes.wrapping_sub(faces).wrapping_sub(age)
     }
 }
