@@ -81,6 +81,29 @@ fn a_fan_of_a_million_faces() {
     linear_orders(&mesh(MILLION + 1, shuffled));
 }
 
+/// While a hub is drawn in a random order it leaves the cache and enters it again all the time.
+#[test]
+fn a_hub_that_enters_again_and_again() {
+    for (rim, seed) in [(353, 1), (370, 0), (442, 2), (3110, 0), (6560, 0)] {
+        let faces: Vec<_> = closed_fan(rim).collect();
+        let shuffled = baselines::random(faces.len(), seed).apply(&faces);
+        let mesh = mesh(rim + 1, shuffled);
+        for size in [3, 4, 6, 12, 16] {
+            for keep_corners in [false, true] {
+                let algorithm = KCacheReorder {
+                    cache: CacheModel::fifo(size),
+                    keep_corners,
+                    ..Default::default()
+                };
+                let order = algorithm.face_order(&mesh);
+                let ordered = order.apply(mesh.faces());
+                let misses = cache::misses(&ordered, algorithm.cache);
+                assert!(misses >= u64::from(rim + 1), "fifo:{size}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_bipyramid_over_a_million_vertices() {
     let upper: Vec<_> = closed_fan(MILLION).collect();

@@ -13,7 +13,7 @@ use std::hint::select_unpredictable;
 
 use super::costs::Costs;
 use super::live_faces::LiveFaces;
-use super::queue::Queue;
+use super::queue::{Entry, Queue};
 use crate::cache::CacheEvent;
 use crate::permutation::{FaceOrder, Permutation};
 
@@ -75,26 +75,32 @@ impl<R: FnMut(CacheEvent)> Growth<'_, R> {
         }
     }
 
-    /// The vertex of least cost in the cache, ties to the oldest.
-    fn cheapest_candidate(&mut self) -> Option<u32> {
+    /// The oldest vertices in the cache, and how many they are; what has left is passed over for
+    /// good, so that a long run over a hub does not scan it again at every eviction.
+    fn oldest(&mut self) -> ([Entry; CANDIDATES], usize) {
         let mut oldest = [(0, 0); CANDIDATES];
         let (mut count, mut scanned) = (0, 0);
-        let (mut best, mut least) = (None, i64::MAX);
-        for &(candidate, push) in self.queue.entries() {
-            scanned += 1;
-            if self.live.vertices[candidate as usize].entered != push {
-                continue;
-            }
-            let cost = self.cost(candidate);
-            best = select_unpredictable(cost < least, Some(candidate), best);
-            least = select_unpredictable(cost < least, cost, least);
-            oldest[count] = (candidate, push);
-            count += 1;
+        for &(vertex, push) in self.queue.entries() {
             if count == CANDIDATES {
                 break;
             }
+            scanned += 1;
+            oldest[count] = (vertex, push);
+            count += usize::from(self.live.vertices[vertex as usize].entered == push);
         }
         self.queue.replace_front(scanned, &oldest[..count]);
+        (oldest, count)
+    }
+
+    /// The vertex of least cost in the cache, ties to the oldest.
+    fn cheapest_candidate(&mut self) -> Option<u32> {
+        let (oldest, count) = self.oldest();
+        let (mut best, mut least) = (None, i64::MAX);
+        for &(candidate, _) in &oldest[..count] {
+            let cost = self.cost(candidate);
+            best = select_unpredictable(cost < least, Some(candidate), best);
+            least = select_unpredictable(cost < least, cost, least);
+        }
         best
     }
 
@@ -164,11 +170,12 @@ impl<R: FnMut(CacheEvent)> Growth<'_, R> {
     /// Makes room: the vertex that is needed last leaves, ties to the oldest, but no corner of the
     /// face being drawn.
     fn pop_needed_last(&mut self, corners: [u32; 3]) {
-        let vertices = &self.live.vertices;
-        let is_held = |&&(v, push): &&(u32, u32)| vertices[v as usize].entered == push;
-        let held = self.queue.entries().iter().filter(is_held).map(|e| e.0);
+        let (oldest, count) = self.oldest();
         let mut last: Option<(u32, (i64, i64))> = None;
-        for vertex in held.filter(|v| !corners.contains(v)).take(CANDIDATES) {
+        for &(vertex, _) in &oldest[..count] {
+            if corners.contains(&vertex) {
+                continue;
+            }
             let need = self.need(vertex);
             if last.is_none_or(|(_, most)| need > most) {
                 last = Some((vertex, need));

@@ -6,7 +6,7 @@ use crate::limits::index32;
 
 /// A vertex on more faces than this is a *hub*: its comings and goings are not announced to its
 /// neighbours and it is not run tentatively. That bounds the work of a step, whatever the valence.
-pub(super) const HUB: u32 = 64;
+pub(super) const HUB: u32 = 256;
 
 /// Live counts from this on share one dead-end stack.
 const STACKS: usize = 8;
