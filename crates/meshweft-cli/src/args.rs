@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Re-order the faces and vertices of a file in place of its bytes
+    /// Re-order the faces and vertices of a file and keep every other byte
     ///
     /// Faces are put in the order in which a vertex cache misses least, vertices in the order of
     /// their first use. Nothing else in the file changes. A mesh whose order would not get better

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use anyhow::Error;
-use meshweft::files::{Document, Place};
+use meshweft::files::{Document, Note, Place};
 use serde_json::{Value, json};
 
 use crate::args::Report;
@@ -31,13 +31,27 @@ impl Report {
         if self.quiet {
             return Ok(());
         }
+        // What holds for many places is said once, at the first.
+        let mut said: Vec<(&Note, usize)> = Vec::new();
         for note in document.notes() {
-            let place = place(&note.place);
-            let colon = if place.is_empty() { "" } else { ": " };
+            match said.iter_mut().find(|(first, _)| first.text == note.text) {
+                Some((_, more)) => *more += 1,
+                None => said.push((note, 0)),
+            }
+        }
+        for (note, more) in said {
+            let place = match place(&note.place) {
+                place if place.is_empty() => place,
+                place => format!("{place}: "),
+            };
+            let more = match more {
+                0 => String::new(),
+                more => format!(" (and {more} more like it)"),
+            };
             let path = document.path().display();
             writeln!(
                 io::stderr().lock(),
-                "note: {path}: {place}{colon}{}",
+                "note: {path}: {place}{}{more}",
                 note.text
             )?;
         }

@@ -147,12 +147,5 @@ impl fmt::Display for FileErrorKind {
     }
 }
 
-impl std::error::Error for FileError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match &self.kind {
-            FileErrorKind::Io(error) => Some(error),
-            FileErrorKind::Order(error) => Some(error),
-            _ => None,
-        }
-    }
-}
+// No `source`: the text above already says what the system or the mesh said.
+impl std::error::Error for FileError {}
