@@ -14,7 +14,7 @@ fuzz_target!(|data: &[u8]| {
 });
 
 fn check(data: &[u8], format: Format, path: &Path) {
-    let read = |bytes| Document::from_bytes(bytes, format, path, &Limits::default());
+    let read = |bytes| Document::from_bytes(bytes, format, path, Limits::default());
     let Ok(mut document) = read(data.to_vec()) else {
         return;
     };

@@ -14,7 +14,7 @@ use crate::count::Counts;
 /// Prints how two files differ as triangles and in misses.
 pub(crate) fn run(arguments: &Compare) -> Result<()> {
     let models = arguments.caches.models();
-    let open = |path: &Path| Document::open(path, &Limits::default());
+    let open = |path: &Path| Document::open(path, Limits::default());
     let (a, b) = (open(&arguments.a)?, open(&arguments.b)?);
     let counts = [&a, &b].map(|document| {
         let entries = document.meshes();

@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &Inspect) -> Result<()> {
 }
 
 fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<()> {
-    let document = Document::open(path, &Limits::default())?;
+    let document = Document::open(path, Limits::default())?;
     let entries = document.meshes();
     let counts: Vec<_> = entries
         .iter()

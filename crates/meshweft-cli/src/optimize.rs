@@ -98,7 +98,7 @@ fn target(input: &Path, arguments: &Optimize) -> Result<PathBuf> {
 
 fn optimize(path: &Path, arguments: &Optimize) -> Result<()> {
     let target = target(path, arguments)?;
-    let mut document = Document::open(path, &Limits::default())?;
+    let mut document = Document::open(path, Limits::default())?;
     let algorithm = KCacheReorder {
         cache: arguments.cache,
         mode: match arguments.mode {

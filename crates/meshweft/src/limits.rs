@@ -19,15 +19,18 @@ pub struct Limits {
     pub vertices: usize,
     /// Most faces in one mesh, polygons cut into triangles.
     pub faces: usize,
+    /// Most levels of objects, arrays or nodes inside each other.
+    pub nesting: usize,
 }
 
 impl Default for Limits {
-    /// 8 GiB a file, and as many vertices and faces as 32-bit indices can count.
+    /// 8 GiB a file, as many vertices and faces as 32-bit indices can count, 128 levels.
     fn default() -> Self {
         Self {
             file_bytes: 8 << 30,
             vertices: MAX_VERTICES,
             faces: MAX_FACES,
+            nesting: 128,
         }
     }
 }

@@ -66,7 +66,7 @@ fn name_of(format: Format) -> &'static Path {
 
 fn open(bytes: &[u8], format: Format) -> Document {
     let limits = Limits::default();
-    Document::from_bytes(bytes.to_vec(), format, name_of(format), &limits).unwrap()
+    Document::from_bytes(bytes.to_vec(), format, name_of(format), limits).unwrap()
 }
 
 fn entry_of(bytes: &[u8], format: Format) -> MeshEntry {
@@ -79,7 +79,7 @@ fn written(document: &Document) -> Vec<u8> {
 
 fn error(bytes: &[u8], format: Format) -> String {
     let limits = Limits::default();
-    match Document::from_bytes(bytes.to_vec(), format, name_of(format), &limits) {
+    match Document::from_bytes(bytes.to_vec(), format, name_of(format), limits) {
         Ok(_) => panic!("{:?} was read", String::from_utf8_lossy(bytes)),
         Err(error) => error.to_string(),
     }

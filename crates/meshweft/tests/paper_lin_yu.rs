@@ -23,7 +23,7 @@ fn meshes() -> Option<PathBuf> {
 
 fn open(folder: &Path, name: &str) -> Mesh {
     let path = folder.join(name);
-    let document = Document::open(&path, &Limits::default()).unwrap();
+    let document = Document::open(&path, Limits::default()).unwrap();
     document.meshes()[0].mesh.clone()
 }
 

@@ -13,7 +13,7 @@ use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 pub(crate) fn check(data: &[u8], format: Format, name: &str) {
     let path = Path::new(name);
     let limits = Limits::default();
-    let read = |bytes: Vec<u8>| Document::from_bytes(bytes, format, path, &limits);
+    let read = |bytes: Vec<u8>| Document::from_bytes(bytes, format, path, limits);
     let Ok(mut document) = read(data.to_vec()) else {
         return;
     };

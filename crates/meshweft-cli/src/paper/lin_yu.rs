@@ -92,7 +92,7 @@ impl Found {
         let Some(file) = paths.find(|path| path.is_file()) else {
             return Ok(None);
         };
-        let document = Document::open(&file, &Limits::default())?;
+        let document = Document::open(&file, Limits::default())?;
         let largest = document.meshes().iter().max_by_key(|e| e.mesh.face_count());
         let mesh = largest.map(|entry| entry.mesh.clone());
         Ok(mesh.map(|mesh| Self {

@@ -9,7 +9,7 @@ use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
 
 use super::error::{FileError, FileErrorKind, Place, Problem};
-use super::{Content, Format, MeshEntry, Note};
+use super::{Content, Format, MeshEntry, Note, ReadOptions};
 use crate::error::MeshError;
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -20,7 +20,7 @@ use crate::permutation::{FaceOrder, VertexOrder};
 /// use std::path::Path;
 /// use meshweft::{CacheModel, Limits, files::Document, order::KCacheReorder};
 ///
-/// let mut document = Document::open(Path::new("scene.glb"), &Limits::default())?;
+/// let mut document = Document::open(Path::new("scene.glb"), Limits::default())?;
 /// let algorithm = KCacheReorder { cache: CacheModel::fifo(12), ..Default::default() };
 /// for mesh in 0..document.meshes().len() {
 ///     let order = document.meshes()[mesh].record_order(|mesh| algorithm.face_order(mesh));
@@ -44,12 +44,13 @@ impl Document {
     /// # Errors
     /// [`FileError`]: the file cannot be read, is of no known format, is not sound, or is over a
     /// limit.
-    pub fn open(path: &Path, limits: &Limits) -> Result<Self, FileError> {
+    pub fn open(path: &Path, options: impl Into<ReadOptions>) -> Result<Self, FileError> {
+        let options = options.into();
         let format = Format::of_path(path);
         let in_file = |kind: FileErrorKind| kind.at(Place::File).in_file(path, format);
         let known = format.ok_or_else(|| in_file(FileErrorKind::UnknownFormat))?;
-        let bytes = read_limited(path, limits).map_err(in_file)?;
-        Self::from_bytes(bytes, known, path, limits)
+        let bytes = read_limited(path, &options.limits).map_err(in_file)?;
+        Self::from_bytes(bytes, known, path, options)
     }
 
     /// Reads a file that is in memory already; `path` names it in errors, and is where the external
@@ -61,13 +62,14 @@ impl Document {
         bytes: Vec<u8>,
         format: Format,
         path: &Path,
-        limits: &Limits,
+        options: impl Into<ReadOptions>,
     ) -> Result<Self, FileError> {
+        let options = &options.into();
         let read = match format {
-            Format::Gltf | Format::Glb => super::gltf::read(bytes, format, path, limits),
-            Format::Obj => super::obj::read(bytes, limits),
-            Format::Ply => super::ply::read(bytes, limits),
-            Format::Off => super::off::read(bytes, limits),
+            Format::Gltf | Format::Glb => super::gltf::read(bytes, format, path, options),
+            Format::Obj => super::obj::read(bytes, options),
+            Format::Ply => super::ply::read(bytes, options),
+            Format::Off => super::off::read(bytes, &options.limits),
         };
         let (content, notes) = read.map_err(|problem| problem.in_file(path, Some(format)))?;
         Ok(Self {

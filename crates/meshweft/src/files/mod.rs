@@ -10,6 +10,7 @@ mod error;
 mod gltf;
 mod obj;
 mod off;
+mod options;
 mod ply;
 mod records;
 mod splice;
@@ -21,6 +22,7 @@ use std::path::{Path, PathBuf};
 pub use document::Document;
 pub use entry::MeshEntry;
 pub use error::{FileError, FileErrorKind, Place};
+pub use options::ReadOptions;
 
 use crate::permutation::{FaceOrder, VertexOrder};
 use error::Problem;

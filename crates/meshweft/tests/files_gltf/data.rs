@@ -37,7 +37,7 @@ fn real_scenes_keep_their_triangles() {
     let scenes = scenes_below(&folder().join("gltf"));
     let mut mesh_count = 0;
     for path in &scenes {
-        let mut document = Document::open(path, &Limits::default()).unwrap();
+        let mut document = Document::open(path, Limits::default()).unwrap();
         let before = document.to_bytes(path).unwrap();
         assert_eq!(before, std::fs::read(path).unwrap(), "{}", path.display());
         let triangles = Reader::of_file(path, None).triangles();
@@ -61,7 +61,7 @@ fn real_scenes_keep_their_triangles() {
         let output = folder.join(path.file_name().unwrap());
         document.write(&output).unwrap();
         assert!(triangles == Reader::of_file(&output, None).triangles());
-        let again = Document::open(&output, &Limits::default()).unwrap();
+        let again = Document::open(&output, Limits::default()).unwrap();
         assert_eq!(again.meshes(), document.meshes());
         std::fs::remove_dir_all(&folder).unwrap();
     }
@@ -76,7 +76,7 @@ fn broken_scenes_give_an_error_or_a_result() {
     let scenes = scenes_below(&folder().join("malformed"));
     for path in &scenes {
         let name = path.file_name().unwrap().to_string_lossy();
-        match Document::open(path, &Limits::default()) {
+        match Document::open(path, Limits::default()) {
             Ok(mut document) => {
                 random_orders(&mut document, 3);
                 document.to_bytes(path).unwrap();

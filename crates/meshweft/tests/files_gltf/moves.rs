@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use meshweft::files::{Document, Format, Place};
+use meshweft::files::{Document, Format, Place, ReadOptions};
 use meshweft::{FaceOrder, Limits, VertexOrder};
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ use crate::{Random, random_orders};
 
 fn open(bytes: &[u8]) -> Document {
     let path = Path::new("scene.glb");
-    Document::from_bytes(bytes.to_vec(), Format::Glb, path, &Limits::default()).unwrap()
+    Document::from_bytes(bytes.to_vec(), Format::Glb, path, Limits::default()).unwrap()
 }
 
 fn reader(bytes: &[u8]) -> Reader {
@@ -245,11 +245,12 @@ fn vertices_stay_where_something_else_counts_on_them() {
             },
         ),
         (
-            "/accessors/0: the vertices stay where they are: sparse data is not moved",
+            "/accessors/0: the vertices stay where they are: the numbers of its sparse elements do \
+             not rise, or reach too far",
             |builder, _, _| {
-                let view = builder.view(&[1, 0, 0, 0], None);
-                let values = builder.view(&[7; 12], None);
-                builder.accessors[0]["sparse"] = json!({"count": 1,
+                let view = builder.view(&[5, 0, 3, 0], None);
+                let values = builder.view(&[7; 24], None);
+                builder.accessors[0]["sparse"] = json!({"count": 2,
                     "indices": {"bufferView": view, "componentType": U16},
                     "values": {"bufferView": values}});
             },
@@ -329,6 +330,113 @@ fn vertices_stay_where_something_else_counts_on_them() {
         assert_eq!(notes(&document), [expected]);
         assert!(!document.meshes()[0].vertices_movable);
         check(&bytes);
+    }
+}
+
+#[test]
+fn sparse_elements_follow_their_vertices() {
+    let count = 40;
+    let mut builder = Builder::default();
+    let position = builder.data(F32, "VEC3", count);
+    let mut sparse = |base: Option<usize>, indices: &[usize], view: Option<usize>| {
+        let accessor = base.unwrap_or_else(|| {
+            builder
+                .accessors
+                .push(json!({"componentType": F32, "count": count, "type": "VEC3"}));
+            builder.accessors.len() - 1
+        });
+        let bytes: Vec<u8> = indices.iter().map(|&i| u8::try_from(i).unwrap()).collect();
+        let view = view.unwrap_or_else(|| builder.view(&bytes, None));
+        let values: Vec<u8> = (0..indices.len() * 12)
+            .map(|i| u8::try_from(1 + (i + accessor * 17) % 110).unwrap())
+            .collect();
+        let values = builder.view(&values, None);
+        builder.accessors[accessor]["sparse"] = json!({"count": indices.len(),
+            "indices": {"bufferView": view, "componentType": U8},
+            "values": {"bufferView": values}});
+        (accessor, view)
+    };
+    // Over a base, over zeros, two with the same numbers, one with none.
+    let (base, _) = sparse(Some(position), &[0, 3, 4, 39], None);
+    let (zeros, numbers) = sparse(None, &[7, 8, 21, 30, 31], None);
+    let (shared, _) = sparse(None, &[7, 8, 21, 30, 31], Some(numbers));
+    let (empty, _) = sparse(None, &[], None);
+    assert_eq!(base, position);
+    let indices = builder.indices(U16, &faces(60, count));
+    let other = builder.indices(U16, &faces(44, count));
+    let targets = json!([{"POSITION": zeros, "NORMAL": shared}, {"POSITION": empty}]);
+    let bytes = builder.glb(
+        &json!([{"primitives": [
+            {"attributes": {"POSITION": position}, "targets": targets, "indices": indices},
+            {"attributes": {"POSITION": position}, "targets": targets, "indices": other},
+        ]}]),
+        &json!({"animations": [{"samplers": [], "channels": [{"sampler": 0, "target": {
+            "path": "pointer",
+            "extensions": {"KHR_animation_pointer": {"pointer": "/meshes/0/weights"}}}}]}]}),
+    );
+    let document = open(&bytes);
+    assert_eq!(notes(&document), [""; 0]);
+    assert!(document.meshes().iter().all(|mesh| mesh.vertices_movable));
+    check(&bytes);
+    // Each triangle has its sparse values with it: the reader puts them in, so equal triangles say
+    // so, and the numbers rise.
+    let mut document = open(&bytes);
+    random_orders(&mut document, 7);
+    let after = reader(&written(&document));
+    let view = &after.json["bufferViews"][numbers];
+    let start = usize::try_from(view["byteOffset"].as_u64().unwrap()).unwrap();
+    let numbers = &after.buffers[0].as_ref().unwrap()[start..start + 5];
+    assert!(numbers.is_sorted() && *numbers != [7, 8, 21, 30, 31]);
+    // The positions of the mesh are those with the sparse ones put in.
+    let positions = document.meshes()[0].mesh.positions();
+    let stored = after.elements(&json!(position)).unwrap();
+    for (position, stored) in positions.iter().zip(stored) {
+        let floats = stored
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .map(|w| f32::from_le_bytes(*w));
+        assert!(floats.eq(position.iter().copied()));
+    }
+}
+
+#[test]
+fn what_is_not_known_can_be_vouched_for_or_refused() {
+    let on_primitive = one_mesh(|_, primitive, _| {
+        primitive["extensions"] = json!({"FANCY_numbers": {}});
+    });
+    let on_view = one_mesh(|builder, _, _| {
+        builder.views[0]["extensions"] = json!({"FANCY_numbers": {}});
+    });
+    // Another reason to stay does not hide the unknown.
+    let hidden = one_mesh(|_, primitive, root| {
+        primitive["extensions"] = json!({"FANCY_numbers": {}});
+        root["skins"] = json!([{"inverseBindMatrices": 0}]);
+    });
+    for (bytes, pointer) in [
+        (on_primitive, "/meshes/0/primitives/0"),
+        (on_view, "/accessors/0"),
+        (hidden, "/meshes/0/primitives/0"),
+    ] {
+        let mut options = ReadOptions::from(Limits::default());
+        let read = |options: &ReadOptions| {
+            let path = Path::new("scene.glb");
+            Document::from_bytes(bytes.clone(), Format::Glb, path, options)
+        };
+        options.strict = true;
+        let error = read(&options).err().unwrap().to_string();
+        assert_eq!(
+            error,
+            format!(
+                "scene.glb: {pointer}: the extension FANCY_numbers is not known and may depend on \
+                 the order of vertices or faces. Leave out --strict to keep what it may depend \
+                 on, or say --assume-order-safe FANCY_numbers if it does not"
+            )
+        );
+        options.assume_order_safe = vec!["OTHER".into(), "FANCY_numbers".into()];
+        let document = read(&options).unwrap();
+        let is_pinned = document.notes().iter().any(|n| n.text.contains("/skins/0"));
+        assert_eq!(document.meshes()[0].vertices_movable, !is_pinned);
     }
 }
 

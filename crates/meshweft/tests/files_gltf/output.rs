@@ -84,7 +84,7 @@ fn external(folder: &Folder, uri: &str, file: &str) -> PathBuf {
 }
 
 fn ordered(path: &Path) -> Document {
-    let mut document = Document::open(path, &Limits::default()).unwrap();
+    let mut document = Document::open(path, Limits::default()).unwrap();
     random_orders(&mut document, 1);
     document
 }
@@ -132,7 +132,7 @@ fn another_name_in_the_folder_gets_a_buffer_of_its_own() {
     let source = external(&folder, "a.bin", "a.bin");
     let before = Reader::of_file(&source, None);
     // Nothing has changed yet: both can share the buffer.
-    let unchanged = Document::open(&source, &Limits::default()).unwrap();
+    let unchanged = Document::open(&source, Limits::default()).unwrap();
     unchanged.write(&folder.0.join("same.gltf")).unwrap();
     assert_eq!(folder.files(), ["a.bin", "same.gltf", "scene.gltf"]);
 
@@ -192,7 +192,7 @@ fn only_the_text_of_a_data_uri_is_replaced() {
     let source = folder.0.join("scene.gltf");
     fs::write(&source, text(&builder, &buffers)).unwrap();
     let before = Reader::of_file(&source, None);
-    let document = Document::open(&source, &Limits::default()).unwrap();
+    let document = Document::open(&source, Limits::default()).unwrap();
     assert_eq!(
         document.to_bytes(&source).unwrap(),
         fs::read(&source).unwrap()
@@ -227,7 +227,7 @@ fn a_compressed_text_keeps_its_buffer_beside_it() {
     ordered(&source).write(&output).unwrap();
     let files = ["a.bin", "out.bin", "out.gltf.gz", "scene.gltf"];
     assert_eq!(folder.files(), files);
-    let again = Document::open(&output, &Limits::default()).unwrap();
+    let again = Document::open(&output, Limits::default()).unwrap();
     assert_eq!(again.meshes(), ordered(&source).meshes());
 }
 

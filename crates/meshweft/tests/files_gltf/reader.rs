@@ -117,17 +117,25 @@ impl Reader {
                 accessors.extend(outline.get("indices"));
             }
         }
-        for accessor in accessors {
-            let accessor = &self.json["accessors"][size(accessor, 0)];
-            let Some(view) = accessor.get("bufferView") else {
-                continue;
+        let mut mark = |part: &Value, length: usize, count: usize| {
+            let Some(view) = part.get("bufferView") else {
+                return;
             };
             let view = &self.json["bufferViews"][size(view, 0)];
-            let length = element_size(accessor);
             let stride = size(&view["byteStride"], length);
-            let start = size(&view["byteOffset"], 0) + size(&accessor["byteOffset"], 0);
-            for i in 0..size(&accessor["count"], 0) {
+            let start = size(&view["byteOffset"], 0) + size(&part["byteOffset"], 0);
+            for i in 0..count {
                 is_record[start + i * stride..][..length].fill(true);
+            }
+        };
+        for accessor in accessors {
+            let accessor = &self.json["accessors"][size(accessor, 0)];
+            let length = element_size(accessor);
+            mark(accessor, length, size(&accessor["count"], 0));
+            if let Some(sparse) = accessor.get("sparse") {
+                let (indices, count) = (&sparse["indices"], size(&sparse["count"], 0));
+                mark(indices, width(&indices["componentType"]), count);
+                mark(&sparse["values"], length, count);
             }
         }
         is_record

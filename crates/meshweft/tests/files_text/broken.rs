@@ -10,7 +10,7 @@ fn limits_are_kept() {
     let mut limits = Limits::default();
     (limits.vertices, limits.faces) = (2, 1);
     let open = |text: &str, format| {
-        let read = Document::from_bytes(text.into(), format, name_of(format), &limits);
+        let read = Document::from_bytes(text.into(), format, name_of(format), limits);
         read.err()
             .map(|error| error.to_string())
             .unwrap_or_default()

@@ -41,7 +41,7 @@ fn real_and_malformed_files_are_read_as_the_index_says() {
         let path = folder.join(file);
         let out_of_range = columns[13] != "0";
         let refused = columns[0] == "-" || out_of_range;
-        match Document::open(&path, &Limits::default()) {
+        match Document::open(&path, Limits::default()) {
             Err(error) => {
                 eprintln!("{error}");
                 assert!(refused, "{error}");

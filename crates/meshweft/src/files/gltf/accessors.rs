@@ -1,9 +1,9 @@
 //! Accessors and buffer views as records of fixed size in a storage, every bound checked.
 
-use serde_json::Value;
+use std::borrow::Cow;
 
 use super::buffers::{Buffers, Source};
-use super::json::{Object, malformed, whole};
+use super::json::{Object, Value, malformed};
 use super::records::Records;
 use crate::files::error::Problem;
 
@@ -30,6 +30,12 @@ pub(super) struct Accessor {
     pub(super) unknown_extension: Option<String>,
     /// Its bytes are part of JSON text that must stay as it is.
     pub(super) is_fixed: bool,
+}
+
+impl Accessor {
+    fn add_unknown(&mut self, extension: Option<String>) {
+        self.unknown_extension = self.unknown_extension.take().or(extension);
+    }
 }
 
 /// The component types by their number in the file.
@@ -83,16 +89,18 @@ impl Shape {
 
 /// The accessors of a file.
 pub(super) struct Accessors<'a> {
-    accessors: &'a [Value],
-    views: &'a [Value],
-    buffer_values: &'a [Value],
+    accessors: Vec<Value<'a>>,
+    views: Vec<Value<'a>>,
+    buffer_values: Vec<Value<'a>>,
     buffers: &'a Buffers,
     /// Whether the file is a GLB, whose JSON stays byte for byte.
     is_glb: bool,
+    /// Extensions that the user vouches for.
+    assumed_safe: &'a [String],
 }
 
 /// Extensions that say nothing about the order of anything.
-pub(super) const ORDER_FREE: [&str; 3] = [
+const ORDER_FREE: [&str; 3] = [
     "KHR_materials_variants",
     "KHR_mesh_quantization",
     "KHR_xmp_json_ld",
@@ -107,6 +115,7 @@ impl<'a> Accessors<'a> {
         root: &Object<'a>,
         buffers: &'a Buffers,
         is_glb: bool,
+        assumed_safe: &'a [String],
     ) -> Result<Self, Problem> {
         Ok(Self {
             accessors: root.array("accessors")?,
@@ -114,24 +123,46 @@ impl<'a> Accessors<'a> {
             buffer_values: root.array("buffers")?,
             buffers,
             is_glb,
+            assumed_safe,
         })
+    }
+
+    /// Whether an extension says nothing about the order of anything.
+    pub(super) fn is_order_free(&self, extension: &str) -> bool {
+        ORDER_FREE.contains(&extension) || self.assumed_safe.iter().any(|safe| safe == extension)
+    }
+
+    /// The first extension that may give bytes another meaning.
+    fn unknown_of(&self, names: Vec<Cow<'_, str>>) -> Option<String> {
+        let unknown = names.into_iter().find(|name| !self.is_order_free(name));
+        unknown.map(Cow::into_owned)
+    }
+
+    /// Whether the bytes of a storage are part of JSON text that must stay as it is.
+    pub(super) fn is_fixed(&self, storage: usize) -> bool {
+        self.is_glb && self.buffers.storages[storage].source != Source::Binary
+    }
+
+    /// The bytes that hold these records.
+    pub(super) fn bytes(&self, records: &Records) -> &'a [u8] {
+        &self.buffers.storages[records.storage].bytes
     }
 
     pub(super) fn len(&self) -> usize {
         self.accessors.len()
     }
 
-    pub(super) fn value(&self, number: usize) -> Option<&'a Value> {
-        self.accessors.get(number)
+    pub(super) fn value(&self, number: usize) -> Option<Value<'a>> {
+        self.accessors.get(number).copied()
     }
 
-    pub(super) fn views(&self) -> &'a [Value] {
-        self.views
+    pub(super) fn views(&self) -> &[Value<'a>] {
+        &self.views
     }
 
     /// The accessor with this number; `user` is the pointer to what names it.
     pub(super) fn resolve(&self, number: usize, user: &str) -> Result<Accessor, Problem> {
-        let value = element(self.accessors, "accessor", number, user)?;
+        let value = element(&self.accessors, "accessor", number, user)?;
         let object = Object::new(value, format!("/accessors/{number}"))?;
         let component = object.required_number("componentType")?;
         let width = match component {
@@ -146,7 +177,7 @@ impl<'a> Accessors<'a> {
         };
         let name = object.text("type")?;
         let name = name.ok_or_else(|| object.problem("type is missing"))?;
-        let shape = Shape::of_name(name)
+        let shape = Shape::of_name(&name)
             .ok_or_else(|| object.problem(format!("there is no type {name:?}")))?;
         let (column, size) = shape.sizes(width);
         let mut accessor = Accessor {
@@ -159,7 +190,7 @@ impl<'a> Accessors<'a> {
             is_compressed: false,
             is_bounded: object.has("min") || object.has("max"),
             is_strided: false,
-            unknown_extension: unknown_of(object.extensions()?),
+            unknown_extension: self.unknown_of(object.extensions()?),
             is_fixed: false,
             pointer: object.pointer().to_owned(),
         };
@@ -179,12 +210,12 @@ impl<'a> Accessors<'a> {
         number: usize,
     ) -> Result<(), Problem> {
         let offset = object.number("byteOffset")?.unwrap_or(0);
-        let value = element(self.views, "buffer view", number, object.pointer())?;
+        let value = element(&self.views, "buffer view", number, object.pointer())?;
         let view = Object::new(value, format!("/bufferViews/{number}"))?;
         for name in view.extensions()? {
-            match COMPRESSED_VIEW.contains(&name) {
+            match COMPRESSED_VIEW.contains(&name.as_ref()) {
                 true => accessor.is_compressed = true,
-                false => accessor.unknown_extension = unknown_of(vec![name]),
+                false => accessor.add_unknown(self.unknown_of(vec![name])),
             }
         }
         if accessor.is_compressed {
@@ -192,12 +223,9 @@ impl<'a> Accessors<'a> {
         }
         let (storage, view_start, view_length) = self.view_bytes(&view)?;
         let buffer = view.required_number("buffer")?;
-        let buffer = Object::new(&self.buffer_values[buffer], format!("/buffers/{buffer}"))?;
-        if let Some(name) = unknown_of(buffer.extensions()?) {
-            accessor.unknown_extension = Some(name);
-        }
-        let in_chunk = self.buffers.storages[storage].source == Source::Binary;
-        accessor.is_fixed = self.is_glb && !in_chunk;
+        let buffer = Object::new(self.buffer_values[buffer], format!("/buffers/{buffer}"))?;
+        accessor.add_unknown(self.unknown_of(buffer.extensions()?));
+        accessor.is_fixed = self.is_fixed(storage);
 
         let size = accessor.size;
         // Some exporters write a stride of 0 for "none".
@@ -237,7 +265,7 @@ impl<'a> Accessors<'a> {
     fn view_bytes(&self, view: &Object) -> Result<(usize, usize, usize), Problem> {
         let number = view.required_number("buffer")?;
         let storage = self.buffers.storage_of(number, view.pointer().to_owned())?;
-        let buffer = Object::new(&self.buffer_values[number], format!("/buffers/{number}"))?;
+        let buffer = Object::new(self.buffer_values[number], format!("/buffers/{number}"))?;
         let promised = buffer.required_number("byteLength")?;
         let found = self.buffers.storages[storage].bytes.len();
         if promised > found {
@@ -260,11 +288,11 @@ impl<'a> Accessors<'a> {
     /// all of them, as far as they are there: for what is only kept out of the way.
     pub(super) fn claimed_bytes(
         &self,
-        view: &Value,
+        view: Value<'_>,
         offset: usize,
         length: Option<usize>,
     ) -> Option<Records> {
-        let field = |name: &str| view.get(name).and_then(whole);
+        let field = |name: &str| view.get(name).and_then(Value::whole);
         let storage = self.buffers.find(field("buffer")?)?;
         let stored = self.buffers.storages[storage].bytes.len();
         let view_start = field("byteOffset").unwrap_or(0);
@@ -282,19 +310,13 @@ impl<'a> Accessors<'a> {
     }
 }
 
-/// The first extension that may give bytes another meaning.
-fn unknown_of(names: Vec<&str>) -> Option<String> {
-    let unknown = names.into_iter().find(|name| !ORDER_FREE.contains(name));
-    unknown.map(str::to_owned)
-}
-
 fn element<'a>(
-    values: &'a [Value],
+    values: &[Value<'a>],
     what: &str,
     number: usize,
     user: &str,
-) -> Result<&'a Value, Problem> {
-    values.get(number).ok_or_else(|| {
+) -> Result<Value<'a>, Problem> {
+    values.get(number).copied().ok_or_else(|| {
         malformed(
             user.to_owned(),
             format!("there is no {what} {number}: the file has {}", values.len()),

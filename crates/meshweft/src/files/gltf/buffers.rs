@@ -67,7 +67,7 @@ impl Buffers {
         let mut external = BTreeMap::new();
         let mut binary = binary;
         for (number, buffer) in root.objects("buffers")?.enumerate() {
-            let storage = match buffer?.text("uri")? {
+            let storage = match buffer?.text("uri")?.as_deref() {
                 None if number == 0 && binary.is_some() => {
                     Ok(buffers.store(Source::Binary, binary.take().unwrap_or_default()))
                 }

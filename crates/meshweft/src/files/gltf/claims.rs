@@ -1,9 +1,7 @@
 //! Who reads which bytes: records are moved only if nobody else looks at them.
 
-use serde_json::Value;
-
 use super::accessors::{Accessors, COMPRESSED_VIEW, UNSIGNED_BYTE, UNSIGNED_SHORT};
-use super::json::{Object, whole};
+use super::json::{Object, Value};
 use super::primitives::{Draft, IndexList, Primitives};
 use super::records::Records;
 use std::collections::BTreeMap;
@@ -20,6 +18,12 @@ pub(super) struct Stream {
     pub(super) index_users: Vec<usize>,
     pub(super) vertex_users: Vec<usize>,
     pub(super) outline_users: Vec<usize>,
+    /// Who reads it as the numbers of sparse elements.
+    pub(super) sparse_index_users: Vec<usize>,
+    /// Who reads it as the values of sparse elements.
+    pub(super) sparse_value_users: Vec<usize>,
+    /// The numbers that these values go with.
+    value_indices: Option<Records>,
     /// The pointer to something else that reads some of the bytes.
     pub(super) taken_by: Option<String>,
     /// The pointer to the first that reads it, for others' `taken_by`.
@@ -27,9 +31,40 @@ pub(super) struct Stream {
 }
 
 impl Stream {
+    fn kinds(&self) -> [&Vec<usize>; 5] {
+        [
+            &self.index_users,
+            &self.vertex_users,
+            &self.outline_users,
+            &self.sparse_index_users,
+            &self.sparse_value_users,
+        ]
+    }
+
+    /// Whether it is read as one kind of thing only.
+    pub(super) fn is_of_one_kind(&self) -> bool {
+        self.kinds()
+            .iter()
+            .filter(|users| !users.is_empty())
+            .count()
+            <= 1
+    }
+
+    /// Renames the users by `new_number`, and leaves out those that have none.
+    pub(super) fn renumber_users(&mut self, new_number: &[Option<usize>]) {
+        for users in [
+            &mut self.index_users,
+            &mut self.vertex_users,
+            &mut self.outline_users,
+            &mut self.sparse_index_users,
+            &mut self.sparse_value_users,
+        ] {
+            *users = users.iter().filter_map(|&user| new_number[user]).collect();
+        }
+    }
+
     pub(super) fn users(&self) -> impl Iterator<Item = usize> {
-        let users = [&self.index_users, &self.vertex_users, &self.outline_users];
-        users.into_iter().flatten().copied()
+        self.kinds().into_iter().flatten().copied()
     }
 }
 
@@ -44,6 +79,9 @@ impl Claims {
         let mut building = Building::default();
         for (user, draft) in primitives.drafts.iter().enumerate() {
             building.add_draft(user, draft);
+            for &number in &draft.unmoved_sparse {
+                building.take_sparse(accessors, number);
+            }
         }
         let mut is_moved = vec![false; accessors.len()];
         for &number in primitives.drafts.iter().flat_map(|draft| &draft.accessors) {
@@ -127,6 +165,9 @@ impl Building {
             index_users: Vec::new(),
             vertex_users: Vec::new(),
             outline_users: Vec::new(),
+            sparse_index_users: Vec::new(),
+            sparse_value_users: Vec::new(),
+            value_indices: None,
             taken_by: None,
             pointer: pointer.to_owned(),
         })
@@ -146,6 +187,16 @@ impl Building {
             let stream = self.stream(records, &draft.pointer);
             stream.vertex_users.push(user);
         }
+        for sparse in &draft.sparse {
+            let stream = self.stream(sparse.indices, &draft.pointer);
+            stream.sparse_index_users.push(user);
+            let stream = self.stream(sparse.values, &draft.pointer);
+            stream.sparse_value_users.push(user);
+            // Values that go with two lists of numbers would have to move in two ways.
+            if *stream.value_indices.get_or_insert(sparse.indices) != sparse.indices {
+                stream.taken_by.get_or_insert_with(|| draft.pointer.clone());
+            }
+        }
     }
 
     fn take(&mut self, records: Records, by: &str) {
@@ -160,16 +211,16 @@ impl Building {
             Some(records) => self.take(records, by),
             None => {
                 let view = accessors.value(number).and_then(|a| a.get("bufferView"));
+                let view = view.and_then(Value::whole);
                 self.take_view(accessors, view, by);
             }
         }
+        self.take_sparse(accessors, number);
     }
 
-    fn take_view(&mut self, accessors: &Accessors, number: Option<&Value>, by: &str) {
-        let view = number
-            .and_then(whole)
-            .and_then(|n| accessors.views().get(n));
-        if let Some(records) = view.and_then(|view| accessors.claimed_bytes(view, 0, None)) {
+    fn take_view(&mut self, accessors: &Accessors, number: Option<usize>, by: &str) {
+        let view = number.and_then(|n| accessors.views().get(n));
+        if let Some(records) = view.and_then(|&view| accessors.claimed_bytes(view, 0, None)) {
             self.take(records, by);
         }
     }
@@ -181,15 +232,19 @@ impl Building {
             let Some(accessor) = accessors.value(number) else {
                 continue;
             };
-            let view = accessor.get("bufferView").and_then(whole);
-            if let Some(is_read) = view.and_then(|view| is_read.get_mut(view)) {
-                *is_read = true;
+            let sparse = accessor.get("sparse");
+            let parts = ["indices", "values"].map(|name| sparse.and_then(|s| s.get(name)));
+            for reader in [Some(accessor)].into_iter().chain(parts).flatten() {
+                let view = reader.get("bufferView").and_then(Value::whole);
+                if let Some(is_read) = view.and_then(|view| is_read.get_mut(view)) {
+                    *is_read = true;
+                }
             }
-            self.take_sparse(accessors, number, accessor);
         }
         for (number, image) in values(root.value("images")) {
             let pointer = format!("/images/{number}");
-            self.take_view(accessors, image.get("bufferView"), &pointer);
+            let view = image.get("bufferView").and_then(Value::whole);
+            self.take_view(accessors, view, &pointer);
         }
         for (number, view) in accessors.views().iter().enumerate() {
             let pointer = format!("/bufferViews/{number}");
@@ -201,17 +256,21 @@ impl Building {
                 }
             }
             if !is_read[number] {
-                self.take_view(accessors, Some(&Value::from(number)), &pointer);
+                self.take_view(accessors, Some(number), &pointer);
             }
         }
     }
 
     /// Takes the bytes of a sparse accessor's replacements.
-    fn take_sparse(&mut self, accessors: &Accessors, number: usize, accessor: &Value) {
-        let Some(sparse) = accessor.get("sparse") else {
+    fn take_sparse(&mut self, accessors: &Accessors, number: usize) {
+        let accessor = accessors.value(number);
+        let Some(sparse) = accessor.and_then(|accessor| accessor.get("sparse")) else {
             return;
         };
-        let count = sparse.get("count").and_then(whole).unwrap_or(usize::MAX);
+        let count = sparse
+            .get("count")
+            .and_then(Value::whole)
+            .unwrap_or(usize::MAX);
         // No element is longer than a MAT4 of doubles; an index has at most four bytes.
         let resolved = accessors.resolve(number, "");
         let value_size = resolved.map_or(128, |accessor| accessor.size);
@@ -219,7 +278,7 @@ impl Building {
             let Some(part) = sparse.get(name) else {
                 continue;
             };
-            let field = |name: &str| part.get(name).and_then(whole);
+            let field = |name: &str| part.get(name).and_then(Value::whole);
             let view = field("bufferView").and_then(|view| accessors.views().get(view));
             let offset = field("byteOffset").unwrap_or(0);
             let size = match name {
@@ -227,7 +286,8 @@ impl Building {
                 _ => value_size,
             };
             let length = count.saturating_mul(size);
-            let records = view.and_then(|view| accessors.claimed_bytes(view, offset, Some(length)));
+            let records =
+                view.and_then(|&view| accessors.claimed_bytes(view, offset, Some(length)));
             if let Some(records) = records {
                 self.take(records, &format!("/accessors/{number}/sparse"));
             }
@@ -236,8 +296,8 @@ impl Building {
 }
 
 /// The bytes of an index into a sparse accessor.
-fn index_size(indices: &Value) -> usize {
-    match indices.get("componentType").and_then(whole) {
+fn index_size(indices: Value<'_>) -> usize {
+    match indices.get("componentType").and_then(Value::whole) {
         Some(UNSIGNED_BYTE) => 1,
         Some(UNSIGNED_SHORT) => 2,
         _ => 4,
@@ -250,32 +310,32 @@ fn other_users(root: &Object) -> Vec<(usize, String)> {
     for (number, animation) in values(root.value("animations")) {
         for (_, sampler) in values(animation.get("samplers")) {
             for name in ["input", "output"] {
-                let accessor = sampler.get(name).and_then(whole);
+                let accessor = sampler.get(name).and_then(Value::whole);
                 users.extend(accessor.map(|a| (a, format!("/animations/{number}"))));
             }
         }
     }
     for (number, skin) in values(root.value("skins")) {
-        let accessor = skin.get("inverseBindMatrices").and_then(whole);
+        let accessor = skin.get("inverseBindMatrices").and_then(Value::whole);
         users.extend(accessor.map(|a| (a, format!("/skins/{number}"))));
     }
     for (number, node) in values(root.value("nodes")) {
         let instancing = node
             .get("extensions")
             .and_then(|extensions| extensions.get("EXT_mesh_gpu_instancing"))
-            .and_then(|extension| extension.get("attributes"))
-            .and_then(Value::as_object);
-        let accessors = instancing.into_iter().flat_map(|a| a.values());
+            .and_then(|extension| extension.get("attributes"));
+        let accessors = instancing.into_iter().flat_map(Value::members);
+        let accessors = accessors.map(|(_, value)| value);
         users.extend(
             accessors
-                .filter_map(whole)
+                .filter_map(Value::whole)
                 .map(|a| (a, format!("/nodes/{number}"))),
         );
     }
     users
 }
 
-fn values(array: Option<&Value>) -> impl Iterator<Item = (usize, &Value)> {
-    let elements = array.and_then(Value::as_array);
+fn values(array: Option<Value<'_>>) -> impl Iterator<Item = (usize, Value<'_>)> {
+    let elements = array.map(Value::elements);
     elements.into_iter().flatten().enumerate()
 }

@@ -9,6 +9,7 @@ use super::json::malformed;
 use super::patch;
 use super::primitives::{Draft, IndexList, Pin};
 use super::records::Records;
+use super::sparse::Sparse;
 use crate::Mesh;
 use crate::error::MeshError;
 use crate::files::MeshEntry;
@@ -32,6 +33,8 @@ pub(super) struct Group {
     pub(super) vertices: Vec<Records>,
     /// Lists of vertex numbers other than the faces.
     pub(super) outlines: Vec<Records>,
+    /// Sparse elements, sorted.
+    pub(super) sparse: Vec<Sparse>,
     pub(super) meshes: Vec<usize>,
 }
 
@@ -102,6 +105,7 @@ impl Entries {
             }
             let target = &mut entries.groups[group];
             target.vertices.extend(&draft.vertices);
+            target.sparse.extend(&draft.sparse);
             target
                 .outlines
                 .extend(draft.outline.as_ref().map(|list| list.records));
@@ -111,6 +115,8 @@ impl Entries {
                 records.sort_unstable();
                 records.dedup();
             }
+            group.sparse.sort_unstable();
+            group.sparse.dedup();
         }
         for entry in &mut entries.meshes {
             entry.vertices_movable &= pins[entry.vertex_group].is_none();
@@ -147,7 +153,13 @@ impl Entries {
         let mesh = match positions {
             Some(records) => {
                 *spare_positions -= records.count;
-                let positions: Vec<[f32; 3]> = records.of(buffers).map(floats).collect();
+                let mut positions: Vec<[f32; 3]> = records.of(buffers).map(floats).collect();
+                if let Some(Sparse { indices, values }) = &draft.sparse_positions {
+                    let numbers = patch::numbers(&buffers.storages[indices.storage].bytes, indices);
+                    for (number, value) in numbers.into_iter().zip(values.of(buffers)) {
+                        positions[number as usize] = floats(value);
+                    }
+                }
                 Mesh::new(positions, faces).map_err(at_draft)?
             }
             None => Mesh::connectivity_only(draft.vertex_count, faces).map_err(at_draft)?,

@@ -3,7 +3,7 @@
 //! One that is not known may depend on any vertex number, so it keeps the vertices; nothing that is
 //! known to number faces or corners is touched.
 
-use super::accessors::{Accessors, ORDER_FREE};
+use super::accessors::Accessors;
 use super::json::Object;
 use super::primitives::{IndexList, Pin, is_index_type};
 use crate::files::error::Problem;
@@ -13,6 +13,8 @@ use crate::files::error::Problem;
 pub(super) struct Restraint {
     pub(super) left: Option<String>,
     pub(super) pin: Option<Pin>,
+    /// Extensions that are not known, and the pointers to what has them.
+    pub(super) unknown: Vec<(String, String)>,
 }
 
 impl Restraint {
@@ -25,6 +27,14 @@ impl Restraint {
             pointer: pointer.to_owned(),
             why: why.into(),
         });
+    }
+
+    /// Pins because of an extension that is not known.
+    pub(super) fn pin_unknown(&mut self, pointer: &str, extension: &str) {
+        let why = format!("the extension {extension} is not known and may depend on their order");
+        self.pin(pointer, why);
+        self.unknown
+            .push((pointer.to_owned(), extension.to_owned()));
     }
 }
 
@@ -44,7 +54,7 @@ pub(super) fn of_mesh(
     for name in extensions.names() {
         if name == "EXT_mesh_manifold" {
             restraint.pin(mesh.pointer(), "EXT_mesh_manifold names vertices again");
-            let Some(manifold) = extensions.object(name)? else {
+            let Some(manifold) = extensions.object(&name)? else {
                 continue;
             };
             let primitive = manifold.object("manifoldPrimitive")?;
@@ -58,11 +68,8 @@ pub(super) fn of_mesh(
                 restraint.leave("EXT_mesh_manifold names corners by their place in the file");
             }
             order_free_accessors.extend(indices);
-        } else if !ORDER_FREE.contains(&name) {
-            restraint.pin(
-                mesh.pointer(),
-                format!("the extension {name} is not known and may depend on their order"),
-            );
+        } else if !accessors.is_order_free(&name) {
+            restraint.pin_unknown(mesh.pointer(), &name);
         }
     }
     Ok(restraint)
@@ -80,7 +87,7 @@ pub(super) fn of_primitive(
     };
     let pointer = primitive.pointer();
     for name in extensions.names() {
-        match name {
+        match name.as_ref() {
             "KHR_draco_mesh_compression" => restraint
                 .leave("it is compressed by KHR_draco_mesh_compression: decompress it first"),
             "FB_ngon_encoding" => {
@@ -106,14 +113,11 @@ pub(super) fn of_primitive(
                     "EXT_mesh_features takes their numbers as identities",
                 );
             }
-            name if ORDER_FREE.contains(&name) => {}
+            name if accessors.is_order_free(name) => {}
             "EXT_mesh_manifold" | "EXT_structural_metadata" => {
                 restraint.pin(pointer, format!("{name} may depend on their order"));
             }
-            name => restraint.pin(
-                pointer,
-                format!("the extension {name} is not known and may depend on their order"),
-            ),
+            name => restraint.pin_unknown(pointer, name),
         }
     }
     Ok(outline)

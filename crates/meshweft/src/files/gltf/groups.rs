@@ -56,7 +56,9 @@ pub(super) fn leave_entangled(primitives: &mut Primitives, claims: &mut Claims) 
             continue;
         }
         let indices = draft.indices.iter().chain(&draft.outline);
+        let sparse = draft.sparse.iter().flat_map(|s| [&s.indices, &s.values]);
         let records = indices.map(|list| &list.records).chain(&draft.vertices);
+        let records = records.chain(sparse);
         for records in records {
             let Some(position) = claims.position(records) else {
                 continue;
@@ -87,13 +89,7 @@ pub(super) fn leave_entangled(primitives: &mut Primitives, claims: &mut Claims) 
     }
     primitives.drafts = kept;
     for stream in &mut claims.streams {
-        for users in [
-            &mut stream.index_users,
-            &mut stream.vertex_users,
-            &mut stream.outline_users,
-        ] {
-            *users = users.iter().filter_map(|&user| new_number[user]).collect();
-        }
+        stream.renumber_users(&new_number);
     }
 }
 
@@ -103,8 +99,7 @@ fn entangled_indices(draft: &Draft, claims: &Claims) -> Option<String> {
     if let Some(by) = &stream.taken_by {
         return Some(format!("its indices share bytes with {by}"));
     }
-    let is_alone = stream.vertex_users.is_empty() && stream.outline_users.is_empty();
-    (!is_alone).then(|| "its indices are also read as something else".to_owned())
+    (!stream.is_of_one_kind()).then(|| "its indices are also read as something else".to_owned())
 }
 
 fn entangled_triples(draft: &Draft, claims: &Claims, readers: &[Readers]) -> Option<String> {
@@ -113,8 +108,7 @@ fn entangled_triples(draft: &Draft, claims: &Claims, readers: &[Readers]) -> Opt
         if let Some(by) = &stream.taken_by {
             return Some(format!("its vertices share bytes with {by}"));
         }
-        let is_alone = stream.index_users.is_empty() && stream.outline_users.is_empty();
-        if !is_alone || readers[position] == Readers::Mixed {
+        if !stream.is_of_one_kind() || readers[position] == Readers::Mixed {
             return Some("its vertices are also read by other primitives".to_owned());
         }
     }
@@ -178,8 +172,18 @@ pub(super) fn vertex_pin(draft: &Draft, group_count: usize, claims: &Claims) -> 
         if let Some(by) = &stream.taken_by {
             return pin(format!("they share bytes with {by}"));
         }
-        if !stream.index_users.is_empty() || !stream.outline_users.is_empty() {
-            return pin("they are also read as vertex numbers".into());
+        if !stream.is_of_one_kind() {
+            return pin("they are also read as something else".into());
+        }
+    }
+    let sparse = draft.sparse.iter().flat_map(|s| [&s.indices, &s.values]);
+    for position in sparse.filter_map(|records| claims.position(records)) {
+        let stream = &claims.streams[position];
+        if let Some(by) = &stream.taken_by {
+            return pin(format!("their sparse data shares bytes with {by}"));
+        }
+        if !stream.is_of_one_kind() {
+            return pin("their sparse data is also read as something else".into());
         }
     }
     let outline = draft.outline.as_ref().map(|list| &list.records);
@@ -188,7 +192,7 @@ pub(super) fn vertex_pin(draft: &Draft, group_count: usize, claims: &Claims) -> 
         if let Some(by) = &stream.taken_by {
             return pin(format!("the outline shares bytes with {by}"));
         }
-        if !stream.index_users.is_empty() || !stream.vertex_users.is_empty() {
+        if !stream.is_of_one_kind() {
             return pin("the outline is also read as something else".into());
         }
     }

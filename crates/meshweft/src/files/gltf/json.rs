@@ -1,22 +1,277 @@
-//! The JSON of a glTF file, read field by field with the place of every fault.
+//! The JSON of a glTF file, kept as text: where each value starts, eight bytes a value.
+//!
+//! A tree of owned values can take ninety times the text, if the text was made for that. Here
+//! nothing is copied before it is asked for, so memory stays below a few times the text.
 
-use serde_json::{Map, Value};
+use std::borrow::Cow;
+use std::ops::Range;
+
+use serde_json::value::RawValue;
 
 use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::limits::Limits;
+
+/// A JSON text and the places of its values.
+pub(super) struct Json<'a> {
+    text: &'a [u8],
+    /// Values and names in the order of the text.
+    nodes: Vec<Node>,
+}
+
+/// A value, or the name of a member.
+struct Node {
+    /// Its first byte in the text, which tells its kind.
+    start: u32,
+    /// The node behind all that it holds.
+    next: u32,
+}
+
+/// What is wrong with a text as a whole.
+pub(super) enum JsonFault {
+    Syntax(String),
+    Kind(FileErrorKind),
+}
+
+impl<'a> Json<'a> {
+    /// Checks a text and finds its values.
+    pub(super) fn read(text: &'a [u8], limits: &Limits) -> Result<Self, JsonFault> {
+        if u32::try_from(text.len()).is_err() {
+            return Err(JsonFault::Kind(FileErrorKind::OverLimit {
+                what: "bytes of JSON",
+                found: text.len() as u64,
+                limit: u64::from(u32::MAX),
+            }));
+        }
+        // The library's parser judges; what follows may rely on sound JSON.
+        serde_json::from_slice::<&RawValue>(text)
+            .map_err(|error| JsonFault::Syntax(error.to_string()))?;
+        let nodes = nodes(text, limits.nesting).map_err(JsonFault::Kind)?;
+        Ok(Self { text, nodes })
+    }
+
+    /// The value that the whole text is.
+    pub(super) fn root(&self) -> Value<'_> {
+        Value {
+            json: self,
+            node: 0,
+        }
+    }
+}
+
+/// Finds the nodes of sound JSON text.
+fn nodes(text: &[u8], nesting: usize) -> Result<Vec<Node>, FileErrorKind> {
+    // The text is shorter than 4 GiB, and has no more nodes than bytes.
+    let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    let mut nodes: Vec<Node> = Vec::new();
+    let mut open = Vec::new();
+    let mut at = 0;
+    while let Some(&byte) = text.get(at) {
+        let start = at;
+        at += 1;
+        match byte {
+            b' ' | b'\t' | b'\n' | b'\r' | b',' | b':' => continue,
+            b'}' | b']' => {
+                let end = number(nodes.len());
+                if let Some(container) = open.pop().and_then(|node: usize| nodes.get_mut(node)) {
+                    container.next = end;
+                }
+                continue;
+            }
+            b'{' | b'[' => {
+                open.push(nodes.len());
+                if open.len() > nesting {
+                    return Err(FileErrorKind::OverLimit {
+                        what: "levels of JSON inside each other",
+                        found: open.len() as u64,
+                        limit: nesting as u64,
+                    });
+                }
+            }
+            b'"' => at = string_end(text, start),
+            _ => at = word_end(text, start),
+        }
+        nodes.push(Node {
+            start: number(start),
+            next: number(nodes.len() + 1),
+        });
+    }
+    Ok(nodes)
+}
+
+/// The byte behind a string that starts at `start`.
+fn string_end(text: &[u8], start: usize) -> usize {
+    let mut at = start + 1;
+    while let Some(&byte) = text.get(at) {
+        match byte {
+            b'"' => return at + 1,
+            b'\\' => at += 2,
+            _ => at += 1,
+        }
+    }
+    text.len()
+}
+
+/// The byte behind a number, `true`, `false` or `null`.
+fn word_end(text: &[u8], start: usize) -> usize {
+    let ends = |byte: &u8| b",:]}[{\" \t\r\n".contains(byte);
+    let rest = &text[start..];
+    start + rest.iter().position(ends).unwrap_or(rest.len())
+}
+
+/// A value in the text.
+#[derive(Clone, Copy)]
+pub(super) struct Value<'a> {
+    json: &'a Json<'a>,
+    node: u32,
+}
+
+impl<'a> Value<'a> {
+    fn node(self) -> &'a Node {
+        &self.json.nodes[self.node as usize]
+    }
+
+    fn at(self, node: u32) -> Self {
+        Self {
+            json: self.json,
+            node,
+        }
+    }
+
+    fn first_byte(self) -> u8 {
+        self.json.text[self.node().start as usize]
+    }
+
+    /// Where a string or number stands in the text, quotes included.
+    pub(super) fn span(self) -> Range<usize> {
+        let start = self.node().start as usize;
+        let end = match self.first_byte() {
+            b'"' => string_end(self.json.text, start),
+            b'{' | b'[' => start + 1,
+            _ => word_end(self.json.text, start),
+        };
+        start..end
+    }
+
+    pub(super) fn is_object(self) -> bool {
+        self.first_byte() == b'{'
+    }
+
+    pub(super) fn is_array(self) -> bool {
+        self.first_byte() == b'['
+    }
+
+    /// The text of a string.
+    pub(super) fn text(self) -> Option<Cow<'a, str>> {
+        if self.first_byte() != b'"' {
+            return None;
+        }
+        let quoted = &self.json.text[self.span()];
+        let inner = quoted.get(1..quoted.len() - 1)?;
+        if inner.contains(&b'\\') {
+            return serde_json::from_slice(quoted).ok().map(Cow::Owned);
+        }
+        std::str::from_utf8(inner).ok().map(Cow::Borrowed)
+    }
+
+    /// The value as a whole number that can count bytes in memory.
+    ///
+    /// JSON does not tell `36.0` from `36`, and some exporters write the former.
+    pub(super) fn whole(self) -> Option<usize> {
+        let byte = self.first_byte();
+        if !byte.is_ascii_digit() && byte != b'-' {
+            return None;
+        }
+        let digits = std::str::from_utf8(&self.json.text[self.span()]).ok()?;
+        if let Ok(number) = digits.parse::<u64>() {
+            return usize::try_from(number).ok();
+        }
+        let number: f64 = digits.parse().ok()?;
+        // Up to here every whole number is exact.
+        let exact = number.fract() == 0.0 && (0.0..=9_007_199_254_740_992.0).contains(&number);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "whole and in range"
+        )]
+        exact
+            .then_some(number as u64)
+            .and_then(|n| n.try_into().ok())
+    }
+
+    /// The elements of an array; none of anything else.
+    pub(super) fn elements(self) -> impl Iterator<Item = Self> {
+        let end = match self.is_array() {
+            true => self.node().next,
+            false => 0,
+        };
+        let mut node = self.node + 1;
+        std::iter::from_fn(move || {
+            let element = self.at(node);
+            (node < end).then(|| {
+                node = element.node().next;
+                element
+            })
+        })
+    }
+
+    /// The members of an object; none of anything else.
+    pub(super) fn members(self) -> impl Iterator<Item = (Cow<'a, str>, Self)> {
+        self.named_nodes()
+            .map(|(name, value)| (name.text().unwrap_or_default(), value))
+    }
+
+    fn named_nodes(self) -> impl Iterator<Item = (Self, Self)> {
+        let end = match self.is_object() {
+            true => self.node().next,
+            false => 0,
+        };
+        let mut node = self.node + 1;
+        std::iter::from_fn(move || {
+            (node < end).then(|| {
+                let (name, value) = (self.at(node), self.at(node + 1));
+                node = value.node().next;
+                (name, value)
+            })
+        })
+    }
+
+    /// The member of an object with this name: the last, if there are several.
+    pub(super) fn get(self, name: &str) -> Option<Self> {
+        let mut found = None;
+        for (member, value) in self.named_nodes() {
+            if member.text().is_some_and(|text| text == name) {
+                found = Some(value);
+            }
+        }
+        found
+    }
+
+    /// What it is, for error messages.
+    fn kind(self) -> String {
+        match self.first_byte() {
+            b'{' => "an object".into(),
+            b'[' => "an array".into(),
+            b'"' => "a string".into(),
+            b'n' => "null".into(),
+            b't' | b'f' => "a truth value".into(),
+            _ => String::from_utf8_lossy(&self.json.text[self.span()]).into_owned(),
+        }
+    }
+}
 
 /// An object and the JSON pointer to it.
 pub(super) struct Object<'a> {
-    fields: &'a Map<String, Value>,
+    value: Value<'a>,
     pointer: String,
 }
 
 impl<'a> Object<'a> {
-    pub(super) fn new(value: &'a Value, pointer: String) -> Result<Self, Problem> {
-        match value {
-            Value::Object(fields) => Ok(Self { fields, pointer }),
-            other => Err(malformed(
+    pub(super) fn new(value: Value<'a>, pointer: String) -> Result<Self, Problem> {
+        match value.is_object() {
+            true => Ok(Self { value, pointer }),
+            false => Err(malformed(
                 pointer,
-                format!("expected an object, found {}", kind_of(other)),
+                format!("expected an object, found {}", value.kind()),
             )),
         }
     }
@@ -33,16 +288,25 @@ impl<'a> Object<'a> {
     }
 
     pub(super) fn has(&self, name: &str) -> bool {
-        self.fields.contains_key(name)
+        self.value(name).is_some()
     }
 
     /// A field of any kind.
-    pub(super) fn value(&self, name: &str) -> Option<&'a Value> {
-        self.fields.get(name)
+    pub(super) fn value(&self, name: &str) -> Option<Value<'a>> {
+        self.value.get(name)
     }
 
-    pub(super) fn names(&self) -> impl Iterator<Item = &'a str> {
-        self.fields.keys().map(String::as_str)
+    /// The names of its fields.
+    pub(super) fn names(&self) -> impl Iterator<Item = Cow<'a, str>> {
+        self.value.members().map(|(name, _)| name)
+    }
+
+    /// The fields that are to be whole numbers, each with its name.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = Result<(Cow<'a, str>, usize), Problem>> {
+        self.value.members().map(|(name, value)| {
+            let number = self.whole(&name, value)?;
+            Ok((name, number))
+        })
     }
 
     /// A problem with this object as a whole.
@@ -50,21 +314,18 @@ impl<'a> Object<'a> {
         malformed(self.pointer.clone(), text)
     }
 
+    fn whole(&self, name: &str, value: Value<'a>) -> Result<usize, Problem> {
+        value.whole().ok_or_else(|| {
+            let found = value.kind();
+            let text = format!("expected a whole number from 0 on, found {found}");
+            malformed(self.pointer_to(name), text)
+        })
+    }
+
     /// A whole number, if it is there.
     pub(super) fn number(&self, name: &str) -> Result<Option<usize>, Problem> {
-        let Some(value) = self.fields.get(name) else {
-            return Ok(None);
-        };
-        match whole(value) {
-            Some(number) => Ok(Some(number)),
-            None => Err(malformed(
-                self.pointer_to(name),
-                format!(
-                    "expected a whole number from 0 on, found {}",
-                    kind_of(value)
-                ),
-            )),
-        }
+        let value = self.value(name);
+        value.map(|value| self.whole(name, value)).transpose()
     }
 
     /// A whole number that must be there.
@@ -73,32 +334,33 @@ impl<'a> Object<'a> {
             .ok_or_else(|| self.problem(format!("{name} is missing")))
     }
 
-    pub(super) fn text(&self, name: &str) -> Result<Option<&'a str>, Problem> {
-        match self.fields.get(name) {
-            None => Ok(None),
-            Some(Value::String(text)) => Ok(Some(text)),
-            Some(other) => Err(malformed(
+    pub(super) fn text(&self, name: &str) -> Result<Option<Cow<'a, str>>, Problem> {
+        let Some(value) = self.value(name) else {
+            return Ok(None);
+        };
+        match value.text() {
+            Some(text) => Ok(Some(text)),
+            None => Err(malformed(
                 self.pointer_to(name),
-                format!("expected a string, found {}", kind_of(other)),
+                format!("expected a string, found {}", value.kind()),
             )),
         }
     }
 
     pub(super) fn object(&self, name: &str) -> Result<Option<Object<'a>>, Problem> {
-        self.fields
-            .get(name)
+        self.value(name)
             .map(|value| Self::new(value, self.pointer_to(name)))
             .transpose()
     }
 
     /// The elements of an array; none if it is not there.
-    pub(super) fn array(&self, name: &str) -> Result<&'a [Value], Problem> {
-        match self.fields.get(name) {
-            None => Ok(&[]),
-            Some(Value::Array(elements)) => Ok(elements),
+    pub(super) fn array(&self, name: &str) -> Result<Vec<Value<'a>>, Problem> {
+        match self.value(name) {
+            None => Ok(Vec::new()),
+            Some(value) if value.is_array() => Ok(value.elements().collect()),
             Some(other) => Err(malformed(
                 self.pointer_to(name),
-                format!("expected an array, found {}", kind_of(other)),
+                format!("expected an array, found {}", other.kind()),
             )),
         }
     }
@@ -109,15 +371,12 @@ impl<'a> Object<'a> {
         name: &str,
     ) -> Result<impl Iterator<Item = Result<Object<'a>, Problem>>, Problem> {
         let pointer = self.pointer_to(name);
-        Ok(self
-            .array(name)?
-            .iter()
-            .enumerate()
-            .map(move |(i, value)| Self::new(value, format!("{pointer}/{i}"))))
+        let elements = self.array(name)?.into_iter().enumerate();
+        Ok(elements.map(move |(i, value)| Self::new(value, format!("{pointer}/{i}"))))
     }
 
     /// The names of the extensions on this object.
-    pub(super) fn extensions(&self) -> Result<Vec<&'a str>, Problem> {
+    pub(super) fn extensions(&self) -> Result<Vec<Cow<'a, str>>, Problem> {
         let extensions = self.object("extensions")?;
         Ok(extensions.map_or(Vec::new(), |object| object.names().collect()))
     }
@@ -128,56 +387,96 @@ pub(super) fn malformed(pointer: String, text: impl Into<String>) -> Problem {
     FileErrorKind::malformed(text).at(Place::Json(pointer))
 }
 
-/// The value as a whole number that can count bytes in memory.
-///
-/// JSON does not tell `36.0` from `36`, and some exporters write the former.
-pub(super) fn whole(value: &Value) -> Option<usize> {
-    if let Some(number) = value.as_u64() {
-        return usize::try_from(number).ok();
-    }
-    let number = value.as_f64()?;
-    // Up to here every whole number is exact.
-    let exact = number.fract() == 0.0 && (0.0..=9_007_199_254_740_992.0).contains(&number);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "whole and in range"
-    )]
-    exact
-        .then_some(number as u64)
-        .and_then(|n| n.try_into().ok())
-}
-
-fn kind_of(value: &Value) -> String {
-    match value {
-        Value::Null => "null".into(),
-        Value::Bool(_) => "a truth value".into(),
-        Value::Number(number) => number.to_string(),
-        Value::String(_) => "a string".into(),
-        Value::Array(_) => "an array".into(),
-        Value::Object(_) => "an object".into(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
+
+    fn read(text: &str) -> Json<'_> {
+        let read = Json::read(text.as_bytes(), &Limits::default());
+        read.unwrap_or_else(|_| panic!("{text}"))
+    }
 
     #[test]
     fn whole_numbers_may_be_written_with_a_point() {
-        assert_eq!(whole(&json!(36)), Some(36));
-        assert_eq!(whole(&json!(36.0)), Some(36));
-        for bad in [json!(-1), json!(0.5), json!(1e300), json!("1"), json!(null)] {
-            assert_eq!(whole(&bad), None, "{bad}");
+        let whole = |text: &str| read(text).root().whole();
+        for good in ["36", "36.0", "3.6e1"] {
+            assert_eq!(whole(good), Some(36), "{good}");
+        }
+        for bad in ["-1", "0.5", "1e300", "\"1\"", "null", "[]"] {
+            assert_eq!(whole(bad), None, "{bad}");
         }
     }
 
     #[test]
     fn pointers_escape_what_they_must() {
-        let value = json!({"a/b~c": []});
-        let object = Object::new(&value, "/x".into()).unwrap();
+        let json = read(r#"{"a/b~c": []}"#);
+        let object = Object::new(json.root(), "/x".into()).unwrap();
         let problem = object.number("a/b~c").unwrap_err();
         assert_eq!(problem.place, Place::Json("/x/a~1b~0c".into()));
+    }
+
+    #[test]
+    fn values_are_those_of_the_library() {
+        let text = r#" { "a" : [1, -2.5e3, true, {"x":[[],{}]}, "s\"]}\u00e9"], "b":{},
+            "\u0061": null, "" :"" } "#;
+        let json = read(text);
+        assert_eq!(shown(json.root()), {
+            let value: serde_json::Value = serde_json::from_str(text).unwrap();
+            value.to_string()
+        });
+    }
+
+    /// The value as the library prints it, members sorted and the last of each name.
+    fn shown(value: Value<'_>) -> String {
+        if value.is_object() {
+            let members: std::collections::BTreeMap<String, String> = value
+                .members()
+                .map(|(name, value)| (name.into_owned(), shown(value)))
+                .collect();
+            let members: Vec<String> = members
+                .into_iter()
+                .map(|(name, value)| format!("{}:{value}", serde_json::Value::from(name)))
+                .collect();
+            return format!("{{{}}}", members.join(","));
+        }
+        if value.is_array() {
+            let elements: Vec<String> = value.elements().map(shown).collect();
+            return format!("[{}]", elements.join(","));
+        }
+        let value: serde_json::Value = match value.text() {
+            Some(text) => text.into(),
+            None => serde_json::from_slice(&value.json.text[value.span()]).unwrap(),
+        };
+        value.to_string()
+    }
+
+    #[test]
+    fn the_last_of_two_members_counts() {
+        let json = read(r#"{"a":1,"b":{"a":5},"\u0061":2}"#);
+        assert_eq!(json.root().get("a").and_then(Value::whole), Some(2));
+    }
+
+    #[test]
+    fn depth_is_limited() {
+        let deep = |depth: usize| "[".repeat(depth) + &"]".repeat(depth);
+        let limits = Limits::default();
+        assert!(Json::read(deep(limits.nesting).as_bytes(), &limits).is_ok());
+        for depth in [limits.nesting + 1, 1_000_000] {
+            let text = deep(depth);
+            let fault = Json::read(text.as_bytes(), &limits);
+            assert!(matches!(
+                fault,
+                Err(JsonFault::Kind(FileErrorKind::OverLimit { .. }))
+            ));
+        }
+    }
+
+    #[test]
+    fn broken_text_is_refused() {
+        for text in ["", "{", "[1,]", "{\"a\" 1}", "nul", "\"\\x\"", "[] []"] {
+            let fault = Json::read(text.as_bytes(), &Limits::default());
+            assert!(matches!(fault, Err(JsonFault::Syntax(_))), "{text}");
+        }
+        assert!(Json::read(b"\"\xff\"", &Limits::default()).is_err());
     }
 }

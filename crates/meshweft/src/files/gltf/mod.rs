@@ -25,23 +25,20 @@ mod output;
 mod patch;
 mod primitives;
 mod records;
-mod uri_spans;
+mod sparse;
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use super::error::{FileErrorKind, Place, Problem};
-use super::{Content, Format, MeshEntry, Note, ReadResult};
-use crate::limits::Limits;
+use super::{Content, Format, MeshEntry, Note, ReadOptions, ReadResult};
 use crate::permutation::{FaceOrder, VertexOrder};
 use accessors::Accessors;
 use buffers::Buffers;
 use claims::Claims;
 use container::Container;
 use entries::{Corners, Entries};
-use json::Object;
+use json::{Json, JsonFault, Object, Value};
 use output::Output;
 use primitives::Primitives;
 
@@ -58,26 +55,39 @@ struct Scene {
 ///
 /// # Complexity
 /// Time O(n log n) and space O(n) in the bytes of the file and its buffers.
-pub(super) fn read(bytes: Vec<u8>, format: Format, path: &Path, limits: &Limits) -> ReadResult {
+pub(super) fn read(
+    bytes: Vec<u8>,
+    format: Format,
+    path: &Path,
+    options: &ReadOptions,
+) -> ReadResult {
+    let limits = &options.limits;
     let is_glb = format == Format::Glb;
     let mut container = match is_glb {
         true => Container::of_chunks(bytes)?,
         false => Container::of_text(bytes),
     };
     let text = &container.head[container.json.clone()];
-    let value: Value = serde_json::from_slice(text).map_err(|error| {
+    let json = Json::read(text, limits).map_err(|fault| {
         let place = match is_glb {
             true => Place::Byte(container.json.start),
             false => Place::File,
         };
-        FileErrorKind::malformed(format!("the JSON cannot be read: {error}")).at(place)
+        let kind = match fault {
+            JsonFault::Kind(kind) => kind,
+            JsonFault::Syntax(error) => FileErrorKind::malformed(format!(
+                "the JSON cannot be read: {error}. Export the file again, or mend its text"
+            )),
+        };
+        kind.at(place)
     })?;
-    let uri_spans = uri_spans::buffer_uri_spans(text);
-    let root = Object::new(&value, String::new())?;
+    let root = Object::new(json.root(), String::new())?;
     check_version(&root)?;
     let buffers = Buffers::load(&root, container.binary.take(), path, limits)?;
-    let accessors = Accessors::new(&root, &buffers, is_glb)?;
-    let mut primitives = Primitives::read(&root, &accessors, limits)?;
+    let uri = |buffer: Value<'_>| buffer.get("uri").map(Value::span);
+    let uri_spans = root.array("buffers")?.into_iter().map(uri).collect();
+    let accessors = Accessors::new(&root, &buffers, is_glb, &options.assume_order_safe)?;
+    let mut primitives = Primitives::read(&root, &accessors, options)?;
     let mut claims = Claims::new(&root, &accessors, &primitives);
     groups::leave_entangled(&mut primitives, &mut claims);
     let entries = Entries::new(&primitives.drafts, &claims, &buffers)?;
@@ -134,12 +144,12 @@ fn notes(
             format!("not read: {why}"),
         ));
     }
-    let is_external = |image: &Value| {
-        let uri = image.get("uri").and_then(Value::as_str);
+    let is_external = |image: Value<'_>| {
+        let uri = image.get("uri").and_then(Value::text);
         uri.is_some_and(|uri| !uri.starts_with("data:"))
     };
-    let images = root.value("images").and_then(Value::as_array);
-    if images.is_some_and(|images| images.iter().any(is_external)) {
+    let images = root.value("images").map(Value::elements);
+    if images.is_some_and(|mut images| images.any(is_external)) {
         let text = "images are files of their own: copy them to the folder of the output";
         notes.push(note("/images", text.to_owned()));
     }
@@ -183,6 +193,7 @@ impl Content for Scene {
                 let renumbered = numbers.iter().map(|&old| old_to_new[old as usize]);
                 patch::write_numbers(bytes, records, renumbered);
             }
+            sparse::renumber(&mut self.buffers, &group.sparse, &old_to_new);
             for &member in &group.meshes {
                 self.entries.meshes[member].apply_vertices(order);
             }

@@ -1,16 +1,18 @@
 //! The primitives of all meshes: which are triangle lists, what they name, and what their
 //! extensions allow.
 
-use serde_json::Value;
+use std::borrow::Cow;
 
 use super::accessors::{
     Accessor, Accessors, FLOAT, Shape, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT,
 };
 use super::extensions::{self, Restraint};
-use super::json::{Object, whole};
+use super::json::{Object, Value};
 use super::records::Records;
+use super::sparse::Sparse;
+use crate::files::ReadOptions;
 use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::limits::{Limits, MAX_FACES, MAX_VERTICES};
+use crate::limits::{MAX_FACES, MAX_VERTICES};
 
 /// Something that keeps vertices where they are: the pointer to it, and why.
 #[derive(Debug, Clone)]
@@ -39,9 +41,15 @@ pub(super) struct Draft {
     pub(super) indices: Option<IndexList>,
     /// POSITION, if it is three floats.
     pub(super) positions: Option<Records>,
+    /// What is sparse of them.
+    pub(super) sparse_positions: Option<Sparse>,
     /// Every attribute and morph target that has bytes, rising, each once.
     pub(super) vertices: Vec<Records>,
     pub(super) outline: Option<IndexList>,
+    /// The sparse elements of attributes and morph targets, rising, each once.
+    pub(super) sparse: Vec<Sparse>,
+    /// Accessors whose sparse elements cannot be moved.
+    pub(super) unmoved_sparse: Vec<usize>,
     /// Why the vertices must stay.
     pub(super) pin: Option<Pin>,
     /// The numbers of all accessors it names.
@@ -70,21 +78,21 @@ impl Primitives {
     pub(super) fn read(
         root: &Object,
         accessors: &Accessors,
-        limits: &Limits,
+        options: &ReadOptions,
     ) -> Result<Self, Problem> {
         let mut all = Self::default();
         let mut ordinal = 0;
         for (number, mesh) in root.objects("meshes")?.enumerate() {
             let mesh = mesh?;
             let name = mesh.text("name").ok().flatten();
-            let name = name.map_or_else(|| format!("mesh {number}"), str::to_owned);
+            let name = name.map_or_else(|| format!("mesh {number}"), Cow::into_owned);
             let of_mesh = extensions::of_mesh(&mesh, accessors, &mut all.order_free_accessors)?;
             let primitive_count = mesh.array("primitives")?.len();
             for (index, primitive) in mesh.objects("primitives")?.enumerate() {
                 let reader = Reader {
                     primitive: primitive?,
                     accessors,
-                    limits,
+                    options,
                 };
                 let name = match primitive_count {
                     1 => name.clone(),
@@ -105,10 +113,20 @@ impl Primitives {
     }
 }
 
+/// What attributes and morph targets store.
+#[derive(Default)]
+struct VertexData {
+    /// The sparse elements of POSITION.
+    positions: Option<Sparse>,
+    records: Vec<Records>,
+    sparse: Vec<Sparse>,
+    unmoved_sparse: Vec<usize>,
+}
+
 struct Reader<'a> {
     primitive: Object<'a>,
     accessors: &'a Accessors<'a>,
-    limits: &'a Limits,
+    options: &'a ReadOptions,
 }
 
 impl Reader<'_> {
@@ -135,7 +153,7 @@ impl Reader<'_> {
         if let Some(why) = restraint.left {
             return Ok(Err(left(why)));
         }
-        let (position, vertices) = self.read_attributes(&mut restraint)?;
+        let (position, data) = self.read_attributes(&mut restraint)?;
         let indices = self.read_indices(&mut restraint)?;
         let vertex_count = position.as_ref().map_or(0, |position| position.count);
         if indices.is_none() && vertex_count % 3 != 0 {
@@ -146,6 +164,11 @@ impl Reader<'_> {
             restraint
                 .left
                 .get_or_insert(format!("{}: {}", pin.pointer, pin.why));
+        }
+        if let Some((pointer, name)) = restraint.unknown.first()
+            && let Some(kind) = self.options.refusal("the extension", name)
+        {
+            return Err(kind.at(Place::Json(pointer.clone())));
         }
         if let Some(why) = restraint.left {
             return Ok(Err(left(why)));
@@ -158,7 +181,10 @@ impl Reader<'_> {
             vertex_count,
             indices,
             positions: positions.and_then(|position| position.records),
-            vertices,
+            sparse_positions: data.positions,
+            vertices: data.records,
+            sparse: data.sparse,
+            unmoved_sparse: data.unmoved_sparse,
             outline,
             pin: restraint.pin,
             accessors: self.named_accessors(),
@@ -170,7 +196,7 @@ impl Reader<'_> {
     fn read_attributes(
         &self,
         restraint: &mut Restraint,
-    ) -> Result<(Option<Accessor>, Vec<Records>), Problem> {
+    ) -> Result<(Option<Accessor>, VertexData), Problem> {
         let attributes = self.primitive.object("attributes")?;
         let attributes =
             attributes.ok_or_else(|| self.primitive.problem("attributes is missing"))?;
@@ -182,21 +208,23 @@ impl Reader<'_> {
             // An extension may bring the positions.
             None if self.primitive.has("extensions") => {
                 restraint.leave("it has no POSITION");
-                return Ok((None, Vec::new()));
+                return Ok((None, VertexData::default()));
             }
             None => return Err(attributes.problem("POSITION is missing")),
         };
         if position.records.is_none() && !position.is_compressed {
             restraint.leave("its POSITION has no buffer view");
         }
-        let mut vertices = Vec::new();
-        self.read_set(&attributes, &position, restraint, &mut vertices)?;
+        let mut data = VertexData::default();
+        self.read_set(&attributes, &position, restraint, &mut data)?;
         for target in self.primitive.objects("targets")? {
-            self.read_set(&target?, &position, restraint, &mut vertices)?;
+            self.read_set(&target?, &position, restraint, &mut data)?;
         }
-        vertices.sort_unstable();
-        vertices.dedup();
-        Ok((Some(position), vertices))
+        data.records.sort_unstable();
+        data.records.dedup();
+        data.sparse.sort_unstable();
+        data.sparse.dedup();
+        Ok((Some(position), data))
     }
 
     /// The accessors of one set: the attributes, or one morph target.
@@ -205,13 +233,12 @@ impl Reader<'_> {
         set: &Object,
         position: &Accessor,
         restraint: &mut Restraint,
-        vertices: &mut Vec<Records>,
+        data: &mut VertexData,
     ) -> Result<(), Problem> {
-        for name in set.names() {
-            let pointer = set.pointer_to(name);
-            let accessor = self
-                .accessors
-                .resolve(set.required_number(name)?, &pointer)?;
+        for member in set.numbers() {
+            let (name, number) = member?;
+            let pointer = set.pointer_to(&name);
+            let accessor = self.accessors.resolve(number, &pointer)?;
             if accessor.count != position.count {
                 return Err(super::json::malformed(
                     pointer,
@@ -223,9 +250,24 @@ impl Reader<'_> {
             }
             self.restrain(&accessor, restraint);
             if accessor.is_sparse {
-                restraint.pin(&accessor.pointer, "sparse data is not moved");
+                let moved = match self.primitive.has("indices") {
+                    true => self.accessors.sparse(number, accessor.count, accessor.size),
+                    false => Err("sparse data of faces without indices is not moved".into()),
+                };
+                match moved {
+                    Ok(sparse) => {
+                        if name == "POSITION" && accessor.pointer == position.pointer {
+                            data.positions = Some(sparse);
+                        }
+                        data.sparse.push(sparse);
+                    }
+                    Err(why) => {
+                        restraint.pin(&accessor.pointer, why);
+                        data.unmoved_sparse.push(number);
+                    }
+                }
             }
-            vertices.extend(accessor.records);
+            data.records.extend(accessor.records);
         }
         Ok(())
     }
@@ -272,10 +314,7 @@ impl Reader<'_> {
             restraint.leave("its data is not in the binary chunk of the GLB");
         }
         if let Some(name) = &accessor.unknown_extension {
-            restraint.pin(
-                &accessor.pointer,
-                format!("the extension {name} is not known and may depend on their order"),
-            );
+            restraint.pin_unknown(&accessor.pointer, name);
         }
     }
 
@@ -289,9 +328,13 @@ impl Reader<'_> {
             (
                 "vertices",
                 vertex_count,
-                self.limits.vertices.min(MAX_VERTICES),
+                self.options.limits.vertices.min(MAX_VERTICES),
             ),
-            ("faces", corners / 3, self.limits.faces.min(MAX_FACES)),
+            (
+                "faces",
+                corners / 3,
+                self.options.limits.faces.min(MAX_FACES),
+            ),
         ] {
             if found > limit {
                 return Err(FileErrorKind::OverLimit {
@@ -307,23 +350,27 @@ impl Reader<'_> {
 
     /// The numbers of all accessors that the primitive names, sound or not.
     fn named_accessors(&self) -> Vec<usize> {
-        let set = |value: &Value| -> Vec<usize> {
-            let fields = value.as_object().into_iter().flat_map(|o| o.values());
-            fields.filter_map(whole).collect()
+        let set = |value: Value<'_>| -> Vec<usize> {
+            let fields = value.members();
+            fields.filter_map(|(_, value)| value.whole()).collect()
         };
         let mut numbers: Vec<usize> = Vec::new();
-        numbers.extend(self.primitive.value("indices").and_then(whole));
+        numbers.extend(self.primitive.value("indices").and_then(Value::whole));
         numbers.extend(
             self.primitive
                 .value("attributes")
                 .map(set)
                 .unwrap_or_default(),
         );
-        let targets = self.primitive.value("targets").and_then(Value::as_array);
+        let targets = self.primitive.value("targets").map(Value::elements);
         numbers.extend(targets.into_iter().flatten().flat_map(set));
         let extensions = self.primitive.value("extensions");
         let outline = extensions.and_then(|e| e.get("CESIUM_primitive_outline"));
-        numbers.extend(outline.and_then(|o| o.get("indices")).and_then(whole));
+        numbers.extend(
+            outline
+                .and_then(|o| o.get("indices"))
+                .and_then(Value::whole),
+        );
         numbers
     }
 }

@@ -10,6 +10,7 @@
 //!   statement (`g`, `o`, `usemtl`, `s`, `v`, `l`, …) ends it, because what it says holds for the
 //!   faces behind it. A face never leaves its run, so a number that counts back (`-1`) means the
 //!   same wherever the face goes; it is written as a plain number only if its vertex is renumbered.
+//!   If the caller wishes, `g` and `o` do not end a run.
 //!
 //! Vertices move only if every `v` line comes before the first `f`, `l` or `p`, and nothing in the
 //! file may name vertices in a way that is not known here.
@@ -25,8 +26,8 @@ use crate::files::splice::{Orders, RecordFile};
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, leading_number, line_end, line_of, shown, trimmed,
 };
-use crate::files::{MeshEntry, Note, ReadResult};
-use crate::limits::{Limits, index32};
+use crate::files::{MeshEntry, Note, ReadOptions, ReadResult};
+use crate::limits::index32;
 use statement::{ObjNotation, attributes_named, statement_span};
 
 /// Statements that name no vertices (`v`, `f`, `l` and `p` are dealt with by themselves).
@@ -53,8 +54,8 @@ const NAME_NO_VERTICES: [&[u8]; 19] = [
 ];
 
 /// Reads an OBJ file.
-pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
-    let mut reader = Reader::new(&bytes, limits);
+pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
+    let mut reader = Reader::new(&bytes, options);
     reader.statements().map_err(|fault| fault.problem(&bytes))?;
     reader
         .check_range()
@@ -135,7 +136,7 @@ impl Fault {
 
 struct Reader<'a> {
     source: &'a [u8],
-    limits: &'a Limits,
+    options: &'a ReadOptions,
     vertices: Spans,
     positions: Vec<[f32; 3]>,
     faces: Spans,
@@ -157,10 +158,10 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(source: &'a [u8], limits: &'a Limits) -> Self {
+    fn new(source: &'a [u8], options: &'a ReadOptions) -> Self {
         Self {
             source,
-            limits,
+            options,
             vertices: Spans::new(),
             positions: Vec::new(),
             faces: Spans::new(),
@@ -213,6 +214,7 @@ impl<'a> Reader<'a> {
             b"l" | b"p" => self.line(span, tokens)?,
             b"vt" => self.attribute(0, span.start),
             b"vn" => self.attribute(1, span.start),
+            b"g" if self.options.across_groups => return Ok(()),
             b"o" => {
                 let rest = trimmed(text, keyword.end, span.end);
                 let blanks = text[rest.clone()].iter().take_while(|&&b| is_blank(b));
@@ -220,15 +222,28 @@ impl<'a> Reader<'a> {
                 if self.name.is_none() && !rest.is_empty() {
                     self.name = Some(rest);
                 }
+                if self.options.across_groups {
+                    return Ok(());
+                }
             }
             other if NAME_NO_VERTICES.contains(&other) => {}
+            other if self.is_assumed_safe(other) => {}
             other => {
+                let name = String::from_utf8_lossy(other);
+                if let Some(kind) = self.options.refusal("the statement", &name) {
+                    let at = span.start;
+                    return Err(Fault { at, kind });
+                }
                 let why = format!("the statement {} may name them", shown(other));
                 self.obstacle.get_or_insert((span.start, why));
             }
         }
         self.in_run = false;
         Ok(())
+    }
+
+    fn is_assumed_safe(&self, keyword: &[u8]) -> bool {
+        std::str::from_utf8(keyword).is_ok_and(|name| self.options.is_assumed_safe(name))
     }
 
     fn vertex(&mut self, span: Range<usize>, mut tokens: Tokens<'_>) -> Result<(), Fault> {
@@ -260,7 +275,8 @@ impl<'a> Reader<'a> {
             .push(span)
             .map_err(|kind| Fault { at, kind })?;
         self.positions.push(position);
-        check_vertex_count(self.vertices.len(), self.limits).map_err(|kind| Fault { at, kind })
+        check_vertex_count(self.vertices.len(), &self.options.limits)
+            .map_err(|kind| Fault { at, kind })
     }
 
     fn attribute(&mut self, which: usize, at: usize) {
@@ -286,7 +302,7 @@ impl<'a> Reader<'a> {
             self.runs.push(index32(self.records.len()));
             self.in_run = true;
         }
-        let pushed = self.records.push(&corners, self.limits);
+        let pushed = self.records.push(&corners, &self.options.limits);
         self.corners = corners;
         let pushed = pushed.and_then(|()| self.faces.push(span));
         pushed.map_err(|kind| Fault { at, kind })

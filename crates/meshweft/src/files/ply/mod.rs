@@ -19,13 +19,13 @@ mod rows;
 use std::ops::Range;
 
 use crate::Mesh;
-use crate::files::error::{FileErrorKind, Place};
+use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::records::{
     FaceRecords, Spans, check_face_count, check_vertex_count, past_the_last_vertex,
 };
 use crate::files::splice::{Orders, RecordFile};
 use crate::files::text::line_of;
-use crate::files::{MeshEntry, Note, ReadResult};
+use crate::files::{MeshEntry, Note, ReadOptions, ReadResult};
 use crate::limits::{Limits, index32};
 use header::{Element, Encoding, Header, Kind, Scalar};
 use notation::PlyNotation;
@@ -56,9 +56,10 @@ const OF_A_WHOLE_FACE: [&str; 17] = [
 const NAME_NOTHING: [&str; 3] = ["camera", "material", "multi_texture_vertex"];
 
 /// Reads a PLY file.
-pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
+pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
+    let limits = &options.limits;
     let header = header::read(&bytes)?;
-    let plan = Plan::new(&header);
+    let plan = Plan::new(&header, options)?;
     let at_header = |element: &Element, kind: FileErrorKind| kind.at(Place::Line(element.line));
     if let Some(element) = header.element("vertex") {
         check_vertex_count(element.count, limits).map_err(|kind| at_header(element, kind))?;
@@ -153,7 +154,7 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(header: &Header) -> Self {
+    fn new(header: &Header, options: &ReadOptions) -> Result<Self, Problem> {
         let mut plan = Self {
             vertex_obstacle: None,
             face_obstacle: None,
@@ -164,7 +165,7 @@ impl Plan {
             match element.name.as_str() {
                 "vertex" => plan.look_at_vertex(element),
                 "face" => plan.look_at_face(element, header.vertex_count()),
-                name if NAME_NOTHING.contains(&name) => {}
+                name if NAME_NOTHING.contains(&name) || options.is_assumed_safe(name) => {}
                 "multi_texture_face" if face.is_some_and(|face| face.count == element.count) => {
                     // Its lists are one entry a corner.
                     plan.corners_turnable = false;
@@ -174,6 +175,9 @@ impl Plan {
                     let beside_faces = face.is_some_and(|face| face.count == element.count);
                     let names_faces = element.properties.iter().any(|p| p.name.contains("face"));
                     let is_known = matches!(name, "edge" | "tristrips");
+                    if !is_known && let Some(kind) = options.refusal("the element", name) {
+                        return Err(kind.at(Place::Line(element.line)));
+                    }
                     if name.contains("face") || names_faces || beside_faces && !is_known {
                         plan.keep_faces(element, &what);
                     }
@@ -181,7 +185,7 @@ impl Plan {
                 }
             }
         }
-        plan
+        Ok(plan)
     }
 
     fn look_at_vertex(&mut self, element: &Element) {

@@ -1,0 +1,61 @@
+//! How a file is read: limits, and what to do about what is not known.
+
+use super::error::FileErrorKind;
+use crate::limits::Limits;
+
+/// How [`Document::open`](super::Document::open) reads a file; [`Limits`] alone will do, too.
+///
+/// ```
+/// use meshweft::{Limits, files::ReadOptions};
+///
+/// let mut options = ReadOptions::from(Limits::default());
+/// options.assume_order_safe.push("ACME_colours".into());
+/// ```
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ReadOptions {
+    /// How much is accepted.
+    pub limits: Limits,
+    /// Refuse a file with something that is not known and may depend on the order of vertices or
+    /// faces. Without it, that order is kept, with a [`Note`](super::Note).
+    pub strict: bool,
+    /// Names of glTF extensions, PLY elements and OBJ statements that do not depend on any order,
+    /// by the word of the caller.
+    pub assume_order_safe: Vec<String>,
+    /// Let faces of an OBJ cross `g` and `o` lines, so that groups may lose and gain faces.
+    /// Materials and smoothing groups are never crossed.
+    pub across_groups: bool,
+}
+
+impl From<Limits> for ReadOptions {
+    fn from(limits: Limits) -> Self {
+        Self {
+            limits,
+            ..Self::default()
+        }
+    }
+}
+
+impl From<&Self> for ReadOptions {
+    fn from(options: &Self) -> Self {
+        options.clone()
+    }
+}
+
+impl ReadOptions {
+    /// Whether the caller vouches for what has this name.
+    pub(super) fn is_assumed_safe(&self, name: &str) -> bool {
+        self.assume_order_safe.iter().any(|safe| safe == name)
+    }
+
+    /// The error for something unknown, if it is to be refused.
+    pub(super) fn refusal(&self, what: &str, name: &str) -> Option<FileErrorKind> {
+        self.strict.then(|| {
+            FileErrorKind::unsupported(format!(
+                "{what} {name} is not known and may depend on the order of vertices or faces. \
+                 Leave out --strict to keep what it may depend on, or say --assume-order-safe \
+                 {name} if it does not"
+            ))
+        })
+    }
+}
