@@ -1,10 +1,13 @@
 //! The command line.
 
 use std::fmt;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use meshweft::CacheModel;
+
+use crate::inputs::Shard;
 
 /// Puts the triangles of a mesh in the order in which a GPU transforms each vertex about once.
 #[derive(Debug, Parser)]
@@ -24,6 +27,7 @@ pub(crate) enum Verb {
     ///
     ///   meshweft optimize scene.glb -o ordered.glb
     ///   meshweft optimize scan.ply --in-place --cache fifo:16 --json
+    ///   meshweft optimize assets -o ordered --jobs 8 --keep-going --manifest done.jsonl
     #[command(verbatim_doc_comment)]
     Optimize(Optimize),
     /// Count cache misses of files as they are
@@ -50,10 +54,13 @@ pub(crate) enum Verb {
 
 #[derive(Debug, Args)]
 pub(crate) struct Optimize {
-    /// The files: .gltf, .glb, .obj, .ply, .off, also with .gz behind
+    /// Files, folders with files, or patterns such as 'assets/**/*.glb'
+    ///
+    /// .gltf, .glb, .obj, .ply, .off, also with .gz behind. Of a folder every such file is taken,
+    /// and those in folders below.
     #[arg(required = true, value_name = "IN")]
     pub(crate) inputs: Vec<PathBuf>,
-    /// Where to write: a file, or with several inputs a folder
+    /// Where to write: a file, or a folder that repeats the folders of the inputs
     #[arg(short, long, value_name = "OUT", conflicts_with = "in_place")]
     pub(crate) output: Option<PathBuf>,
     /// Replace the input once the new file is whole
@@ -98,13 +105,43 @@ pub(crate) struct Optimize {
     /// Go on with the next file when one fails
     #[arg(long)]
     pub(crate) keep_going: bool,
+    /// Files to work on at once [default: as many as there are cores]
+    #[arg(long, value_name = "N")]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// Threads for the meshes of one file; the output is the same for any number [default: the
+    /// cores that the jobs leave]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// List what is done as JSON lines; a run with the same list goes on where it was cut off
+    ///
+    /// What the list has as done, and whose output is there, is not done again. Remove the list to
+    /// start anew.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) manifest: Option<PathBuf>,
+    /// Do every N-th file only, from the I-th on: 1/4, 2/4, 3/4 and 4/4 together do all
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+    /// Refuse files with something that is not known and may depend on the order
+    ///
+    /// A glTF extension on a primitive, accessor or buffer view, a PLY element, an OBJ statement.
+    /// Without this flag, what they may depend on stays where it is, and a note says so.
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// An extension, element or statement that does not depend on the order; may be repeated
+    #[arg(long, value_name = "NAME")]
+    pub(crate) assume_order_safe: Vec<String>,
+    /// Let faces of an OBJ cross g and o lines: groups may lose and gain faces
+    ///
+    /// Materials and smoothing groups are never crossed.
+    #[arg(long)]
+    pub(crate) across_groups: bool,
     #[command(flatten)]
     pub(crate) report: Report,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Inspect {
-    /// The files
+    /// Files, folders with files, or patterns
     #[arg(required = true, value_name = "IN")]
     pub(crate) inputs: Vec<PathBuf>,
     #[command(flatten)]

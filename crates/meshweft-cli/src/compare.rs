@@ -67,8 +67,8 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
         b.path().display(),
         crate::inspect::columns(&rows)
     ))?;
-    arguments.report.notes(&a)?;
-    Ok(arguments.report.notes(&b)?)
+    let notes = [&a, &b].map(crate::output::note_lines).concat();
+    Ok(arguments.report.notes(&notes)?)
 }
 
 /// Which side misses less: under the first model that tells them apart.

@@ -9,13 +9,14 @@ use serde_json::{Value, json};
 
 use crate::args::Inspect;
 use crate::count::Counts;
+use crate::inputs;
 
 /// Prints the counts of each file.
 pub(crate) fn run(arguments: &Inspect) -> Result<()> {
     let models = arguments.caches.models();
     let mut failed: Option<Error> = None;
-    for path in &arguments.inputs {
-        if let Err(error) = inspect(path, &models, arguments)
+    for input in inputs::expand(&arguments.inputs, None)? {
+        if let Err(error) = inspect(&input.path, &models, arguments)
             && let Some(earlier) = failed.replace(error)
         {
             eprintln!("error: {earlier:#}");
@@ -50,7 +51,9 @@ fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<()
         "notes": crate::output::notes_json(&document),
     }))?;
     arguments.report.text(&text(&document, &counts, &total))?;
-    Ok(arguments.report.notes(&document)?)
+    Ok(arguments
+        .report
+        .notes(&crate::output::note_lines(&document))?)
 }
 
 fn text(document: &Document, counts: &[Counts], total: &Counts) -> String {

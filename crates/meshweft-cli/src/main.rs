@@ -5,6 +5,7 @@ mod args;
 mod compare;
 mod count;
 mod demo;
+mod inputs;
 mod inspect;
 mod optimize;
 mod output;

@@ -1,38 +1,119 @@
 //! `optimize`: the main job.
 
+mod batch;
 mod improve;
+mod interrupt;
+mod jobs;
+mod manifest;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Error, Result};
-use meshweft::files::{Document, Format};
+use anyhow::{Context, Result};
+use meshweft::CacheModel;
+use meshweft::files::{Document, Format, ReadOptions, remove_abandoned};
 use meshweft::order::{KCacheReorder, Mode};
-use meshweft::{CacheModel, Limits};
 use serde_json::{Value, json};
 
 use crate::args::{self, Optimize, Usage};
 use crate::count::{Counts, by_model, ratio};
+use crate::output;
 use improve::Improvement;
+use jobs::Job;
+use manifest::Manifest;
 
 /// The largest cache that orders are made for here.
 const MAX_SIZE: u32 = 1024;
 
+/// What there is to say about a file.
+struct Outcome {
+    json: Value,
+    text: String,
+    notes: Vec<String>,
+    /// Done by an earlier run.
+    was_done: bool,
+}
+
 /// Optimises each file.
 pub(crate) fn run(arguments: &Optimize) -> Result<()> {
     check(arguments)?;
-    let mut failed: Option<Error> = None;
-    for path in &arguments.inputs {
-        if let Err(error) = optimize(path, arguments) {
-            if !arguments.keep_going {
-                return Err(error);
-            }
-            if let Some(earlier) = failed.replace(error) {
-                eprintln!("error: {earlier:#}");
-            }
+    let jobs = jobs::jobs(arguments)?;
+    let manifest = arguments.manifest.as_deref().map(Manifest::open);
+    let manifest = manifest.transpose()?;
+    let shared = jobs::shared_buffers(&jobs);
+    let workers = Workers::new(arguments, jobs.len());
+    if !arguments.dry_run {
+        interrupt::watch();
+        for folder in jobs
+            .iter()
+            .filter_map(|job| job.target.parent())
+            .collect::<BTreeSet<_>>()
+        {
+            remove_abandoned(folder);
         }
     }
-    failed.map_or(Ok(()), Err)
+    let bar = output::progress(jobs.len(), &arguments.report);
+    let work = |index: usize| {
+        let job: &Job = &jobs[index];
+        if manifest
+            .as_ref()
+            .is_some_and(|m| m.has(&job.input, &job.target))
+        {
+            return Ok(Outcome::of_earlier_run(job));
+        }
+        let done = optimize(job, &shared, workers.threads, arguments);
+        if let (Some(manifest), false) = (&manifest, arguments.dry_run) {
+            let _whole = interrupt::hold_off();
+            let total = done.as_ref().map(|outcome| outcome.json["total"].clone());
+            let total = total.map_err(|error| format!("{error:#}"));
+            manifest.add(&job.input, &job.target, &total)?;
+        }
+        done
+    };
+    let mut is_first_failure = true;
+    let done = batch::run(
+        jobs.len(),
+        workers.jobs,
+        arguments.keep_going,
+        work,
+        |index, result| {
+            bar.inc(1);
+            bar.suspend(|| match result {
+                Ok(outcome) => outcome.print(arguments),
+                Err(error) => {
+                    let file = jobs[index].input.display().to_string();
+                    let text = format!("{error:#}");
+                    arguments.report.json(&json!({
+                        "schema": 1, "command": "optimize", "file": file, "error": text,
+                    }))?;
+                    // The first is reported as the error of the whole run.
+                    if !std::mem::take(&mut is_first_failure) {
+                        eprintln!("error: {text}");
+                    }
+                    Ok(())
+                }
+            })
+        },
+    );
+    bar.finish_and_clear();
+    done
+}
+
+/// How many threads do what.
+struct Workers {
+    jobs: usize,
+    /// For each file.
+    threads: usize,
+}
+
+impl Workers {
+    fn new(arguments: &Optimize, files: usize) -> Self {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let jobs = arguments.jobs.map_or(cores, usize::from).min(files.max(1));
+        let threads = arguments.threads.map_or(cores.div_ceil(jobs), usize::from);
+        Self { jobs, threads }
+    }
 }
 
 /// Refuses what cannot be done before any file is touched.
@@ -58,47 +139,24 @@ fn check(arguments: &Optimize) -> Result<(), Usage> {
             "where to? Give -o OUT, --in-place, or --dry-run".into(),
         ));
     }
-    if arguments.inputs.len() > 1 {
-        let is_folder =
-            |out: &PathBuf| out.is_dir() || out.as_os_str().as_encoded_bytes().ends_with(b"/");
-        if arguments.output.as_ref().is_some_and(|out| !is_folder(out)) {
-            return Err(Usage(
-                "several files go into a folder: give -o FOLDER/".into(),
-            ));
-        }
-        if arguments.write_permutation.is_some() {
-            return Err(Usage("--write-permutation takes one file at a time".into()));
-        }
-    }
     Ok(())
 }
 
-/// Where the result of `input` goes.
-fn target(input: &Path, arguments: &Optimize) -> Result<PathBuf> {
-    let Some(output) = &arguments.output else {
-        return Ok(input.to_owned());
-    };
-    let is_folder = output.is_dir() || arguments.inputs.len() > 1;
-    let target = match (is_folder, input.file_name()) {
-        (true, Some(name)) => {
-            fs::create_dir_all(output).with_context(|| output.display().to_string())?;
-            output.join(name)
-        }
-        _ => output.clone(),
-    };
-    let same = |a: &Path, b: &Path| Some(fs::canonicalize(a).ok()? == fs::canonicalize(b).ok()?);
-    if same(&target, input) == Some(true) {
-        return Err(Error::new(Usage(format!(
-            "{} is the input itself: use --in-place to replace it",
-            target.display()
-        ))));
-    }
-    Ok(target)
-}
-
-fn optimize(path: &Path, arguments: &Optimize) -> Result<()> {
-    let target = target(path, arguments)?;
-    let mut document = Document::open(path, Limits::default())?;
+fn optimize(
+    job: &Job,
+    shared: &[PathBuf],
+    threads: usize,
+    arguments: &Optimize,
+) -> Result<Outcome> {
+    let Job { input, target } = job;
+    let mut options = ReadOptions::default();
+    options.strict = arguments.strict;
+    options
+        .assume_order_safe
+        .clone_from(&arguments.assume_order_safe);
+    options.across_groups = arguments.across_groups;
+    options.keep_buffers = shared.to_vec();
+    let mut document = Document::open(input, options)?;
     let algorithm = KCacheReorder {
         cache: arguments.cache,
         mode: match arguments.mode {
@@ -113,29 +171,56 @@ fn optimize(path: &Path, arguments: &Optimize) -> Result<()> {
     };
     let models = models(arguments.cache);
     let before = counts(&document, &models);
-    let improvement = improve::improve(document.meshes(), &algorithm, arguments);
+    let improvement = improve::improve(document.meshes(), &algorithm, threads, arguments);
     improvement.apply(&mut document)?;
     let after = counts(&document, &models);
 
     let writes = !arguments.dry_run && (improvement.changes() || !arguments.in_place);
     if writes {
+        let _whole = interrupt::hold_off();
+        if let Some(folder) = target.parent() {
+            fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+        }
         match improvement.changes() {
-            true => document.write(&target)?,
-            false => write_unchanged(&document, path, &target)?,
+            true => document.write(target)?,
+            false => write_unchanged(&document, input, target)?,
         }
     }
     if let Some(file) = &arguments.write_permutation {
         let text = improvement.permutation_json(&document).to_string();
         fs::write(file, text).with_context(|| file.display().to_string())?;
     }
-    report(
+    Ok(outcome(
         &document,
-        &target,
+        target,
         writes,
         arguments,
         &improvement,
         [&before, &after],
-    )
+    ))
+}
+
+impl Outcome {
+    fn of_earlier_run(job: &Job) -> Self {
+        let [file, output] = [&job.input, &job.target].map(|path| path.display().to_string());
+        Self {
+            text: format!("{file}\n  done before: {output}"),
+            json: json!({
+                "schema": 1, "command": "optimize", "file": file, "output": output,
+                "done_before": true,
+            }),
+            notes: Vec::new(),
+            was_done: true,
+        }
+    }
+
+    fn print(&self, arguments: &Optimize) -> Result<()> {
+        arguments.report.json(&self.json)?;
+        if !self.was_done || !arguments.report.quiet {
+            arguments.report.text(&self.text)?;
+        }
+        Ok(arguments.report.notes(&self.notes)?)
+    }
 }
 
 /// Writes a file in which nothing was moved; a compressed one as it was, not compressed anew.
@@ -168,14 +253,14 @@ fn counts(document: &Document, models: &[CacheModel]) -> Vec<Counts> {
         .collect()
 }
 
-fn report(
+fn outcome(
     document: &Document,
     target: &Path,
     written: bool,
     arguments: &Optimize,
     improvement: &Improvement,
     [before, after]: [&[Counts]; 2],
-) -> Result<()> {
+) -> Outcome {
     let models = models(arguments.cache);
     let total = [before, after].map(|c| Counts::total(document.meshes(), c, &models));
     let meshes: Vec<Value> = document
@@ -201,7 +286,7 @@ fn report(
         })
         .collect();
     let shown = |path: &Path| path.display().to_string();
-    arguments.report.json(&json!({
+    let json = json!({
         "schema": 1,
         "command": "optimize",
         "file": shown(document.path()),
@@ -210,8 +295,8 @@ fn report(
         "mode": match arguments.mode { args::Mode::Fast => "fast", args::Mode::Faithful => "faithful" },
         "meshes": meshes,
         "total": change(&total[0], &total[1]),
-        "notes": crate::output::notes_json(document),
-    }))?;
+        "notes": output::notes_json(document),
+    });
     let first = |counts: &Counts| counts.acmr().next().map_or(0.0, |(_, acmr)| acmr);
     let mut text = format!(
         "{}\n  {} faces, {} vertices\n  misses per face, {}: {:.4} -> {:.4}",
@@ -237,8 +322,12 @@ fn report(
         (true, false) => "\n  not written: dry run".to_owned(),
         (false, false) => "\n  nothing to improve: left as it is".to_owned(),
     };
-    arguments.report.text(&text)?;
-    Ok(arguments.report.notes(document)?)
+    Outcome {
+        json,
+        text,
+        notes: output::note_lines(document),
+        was_done: false,
+    }
 }
 
 fn change(before: &Counts, after: &Counts) -> serde_json::Map<String, Value> {

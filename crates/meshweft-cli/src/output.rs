@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use anyhow::Error;
+use indicatif::{ProgressBar, ProgressStyle};
 use meshweft::files::{Document, Note, Place};
 use serde_json::{Value, json};
 
@@ -27,36 +28,51 @@ impl Report {
     }
 
     /// Says on standard error what a file's reader leaves as it is.
-    pub(crate) fn notes(&self, document: &Document) -> io::Result<()> {
+    pub(crate) fn notes(&self, lines: &[String]) -> io::Result<()> {
         if self.quiet {
             return Ok(());
         }
-        // What holds for many places is said once, at the first.
-        let mut said: Vec<(&Note, usize)> = Vec::new();
-        for note in document.notes() {
-            match said.iter_mut().find(|(first, _)| first.text == note.text) {
-                Some((_, more)) => *more += 1,
-                None => said.push((note, 0)),
-            }
-        }
-        for (note, more) in said {
-            let place = match place(&note.place) {
-                place if place.is_empty() => place,
-                place => format!("{place}: "),
-            };
-            let more = match more {
-                0 => String::new(),
-                more => format!(" (and {more} more like it)"),
-            };
-            let path = document.path().display();
-            writeln!(
-                io::stderr().lock(),
-                "note: {path}: {place}{}{more}",
-                note.text
-            )?;
-        }
-        Ok(())
+        let mut stderr = io::stderr().lock();
+        lines
+            .iter()
+            .try_for_each(|line| writeln!(stderr, "note: {line}"))
     }
+}
+
+/// What a file's reader leaves as it is, a line each: what holds for many places is said once, at
+/// the first.
+pub(crate) fn note_lines(document: &Document) -> Vec<String> {
+    let mut said: Vec<(&Note, usize)> = Vec::new();
+    for note in document.notes() {
+        match said.iter_mut().find(|(first, _)| first.text == note.text) {
+            Some((_, more)) => *more += 1,
+            None => said.push((note, 0)),
+        }
+    }
+    let line = |(note, more): (&Note, usize)| {
+        let place = match place(&note.place) {
+            place if place.is_empty() => place,
+            place => format!("{place}: "),
+        };
+        let more = match more {
+            0 => String::new(),
+            more => format!(" (and {more} more like it)"),
+        };
+        format!("{}: {place}{}{more}", document.path().display(), note.text)
+    };
+    said.into_iter().map(line).collect()
+}
+
+/// A bar for work on several files, on standard error if that is a terminal.
+pub(crate) fn progress(files: usize, report: &Report) -> ProgressBar {
+    let bar = match files > 1 && !report.quiet {
+        true => ProgressBar::new(files as u64),
+        false => ProgressBar::hidden(),
+    };
+    let template = "{bar:40} {pos}/{len} files, {eta} left";
+    bar.with_style(
+        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
+    )
 }
 
 /// The notes of a document as JSON.

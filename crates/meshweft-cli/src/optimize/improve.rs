@@ -1,5 +1,7 @@
 //! Better orders for the meshes of a file, found before the file is touched.
 
+use std::sync::Mutex;
+
 use anyhow::Result;
 use meshweft::files::{Document, MeshEntry};
 use meshweft::order::{KCacheReorder, Mode, vertex_fetch};
@@ -36,9 +38,11 @@ struct FaceChange {
 pub(super) fn improve(
     entries: &[MeshEntry],
     algorithm: &KCacheReorder,
+    threads: usize,
     arguments: &Optimize,
 ) -> Improvement {
-    let mut entries = entries.to_vec();
+    // Orders go by connectivity alone.
+    let mut entries: Vec<MeshEntry> = entries.iter().map(MeshEntry::without_positions).collect();
     let unchanged = |entry: &MeshEntry| FaceChange {
         order: FaceOrder::identity(entry.record_count()),
         reason: None,
@@ -52,9 +56,13 @@ pub(super) fn improve(
     let rounds = if once { 1 } else { MAX_ROUNDS };
     for _ in 0..rounds {
         let mut moved = vec![false; entries.len()];
-        for (i, entry) in entries.iter_mut().enumerate() {
-            moved[i] = improvement.faces[i].improve(entry, algorithm, arguments.allow_worse);
-        }
+        let each = entries
+            .iter_mut()
+            .zip(&mut improvement.faces)
+            .zip(&mut moved);
+        in_parallel(threads, each, |((entry, change), moved)| {
+            *moved = change.improve(entry, algorithm, arguments.allow_worse);
+        });
         let mut changed = moved.iter().any(|&moved| moved);
         if !arguments.keep_vertex_order {
             changed |= improvement.improve_vertices(&mut entries, &moved);
@@ -64,6 +72,29 @@ pub(super) fn improve(
         }
     }
     improvement
+}
+
+/// Calls `work` with each item, on several threads; nothing depends on which takes which.
+fn in_parallel<T: Send>(
+    threads: usize,
+    items: impl ExactSizeIterator<Item = T> + Send,
+    work: impl Fn(T) + Sync,
+) {
+    let threads = threads.min(items.len());
+    if threads <= 1 {
+        return items.for_each(work);
+    }
+    let items = Mutex::new(items);
+    let next = || items.lock().unwrap_or_else(|lock| lock.into_inner()).next();
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(item) = next() {
+                    work(item);
+                }
+            });
+        }
+    });
 }
 
 /// The groups whose vertices may move, each with its first mesh and an order that moves nothing.

@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::Folder;
 
 /// A grid of 20 × 20 quads as OBJ, its faces alternating between both ends.
-fn grid_obj() -> String {
+pub(crate) fn grid_obj() -> String {
     let mut text = String::from("# a grid\nmtllib none.mtl\no grid\n");
     for y in 0..21 {
         for x in 0..21 {

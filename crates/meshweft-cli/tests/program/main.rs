@@ -3,6 +3,7 @@
 mod basics;
 mod data;
 mod demo;
+mod many;
 
 use std::fs;
 use std::path::{Path, PathBuf};

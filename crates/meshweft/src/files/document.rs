@@ -1,8 +1,10 @@
 //! A file in memory: its meshes as values, its bytes ready to be patched.
 
+use std::ffi::OsString;
 use std::fs;
-use std::io::{Read, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use flate2::Compression;
 use flate2::read::MultiGzDecoder;
@@ -213,13 +215,37 @@ fn is_gzip(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
 }
 
+/// The bytes of a file, or what they decompress to if its name ends in `.gz`.
+fn source(path: &Path) -> io::Result<Box<dyn Read>> {
+    let file = fs::File::open(path)?;
+    Ok(match is_gzip(path) {
+        true => Box::new(MultiGzDecoder::new(io::BufReader::new(file))),
+        false => Box::new(file),
+    })
+}
+
+/// The start of a file, up to the length that `length` finds in its first bytes.
+pub(super) fn read_start(
+    path: &Path,
+    limits: &Limits,
+    length: impl Fn(&[u8]) -> u64,
+) -> Result<Vec<u8>, FileErrorKind> {
+    const FIRST: u64 = 64;
+    let mut source = source(path).map_err(FileErrorKind::Io)?;
+    let mut bytes = Vec::new();
+    let mut read = |bytes: &mut Vec<u8>, limit: u64| {
+        let left = limit.saturating_sub(bytes.len() as u64);
+        source.by_ref().take(left).read_to_end(bytes)
+    };
+    read(&mut bytes, FIRST).map_err(FileErrorKind::Io)?;
+    let limit = length(&bytes).min(limits.file_bytes);
+    read(&mut bytes, limit).map_err(FileErrorKind::Io)?;
+    Ok(bytes)
+}
+
 /// The bytes of a file, decompressed if its name ends in `.gz`.
 pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Vec<u8>, FileErrorKind> {
-    let file = fs::File::open(path).map_err(FileErrorKind::Io)?;
-    let mut source: Box<dyn Read> = match is_gzip(path) {
-        true => Box::new(MultiGzDecoder::new(std::io::BufReader::new(file))),
-        false => Box::new(file),
-    };
+    let mut source = source(path).map_err(FileErrorKind::Io)?;
     let mut bytes = Vec::new();
     let limit = limits.file_bytes;
     let read = source
@@ -237,14 +263,48 @@ pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Vec<u8>, File
     }
 }
 
+/// What the names of temporary files end with.
+const TEMPORARY: &str = ".meshweft-tmp";
+
+/// Removes temporary files in `folder` whose writer has died; those that are being written stay.
+///
+/// Nothing is reported: what cannot be removed does no harm.
+pub fn remove_abandoned(folder: &Path) {
+    let folder = match folder.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => folder,
+    };
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.as_encoded_bytes();
+        if !name.starts_with(b".") || !name.ends_with(TEMPORARY.as_bytes()) {
+            continue;
+        }
+        let path = entry.path();
+        // Its writer holds a lock as long as it lives.
+        let is_abandoned = fs::File::open(&path).is_ok_and(|file| file.try_lock().is_ok());
+        if is_abandoned {
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
 /// Writes to a temporary file in the same folder and renames it over `path`.
-fn write_renamed(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut name = std::ffi::OsString::from(".");
+///
+/// A link is followed, and a file that is replaced keeps its permissions.
+fn write_renamed(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // Two threads may write one buffer that two files share.
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
+    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}.tmp", std::process::id()));
+    name.push(format!(".{}-{number}{TEMPORARY}", std::process::id()));
     let temporary = path.with_file_name(name);
-    let write = || -> std::io::Result<()> {
+    let write = || -> io::Result<()> {
         let mut file = fs::File::create(&temporary)?;
+        // Not every file system has locks; without one nobody clears up after a dead writer.
+        let _ = file.lock();
         if is_gzip(path) {
             // No time stamp in the header: the same bytes in give the same bytes out.
             let mut encoder = GzEncoder::new(&mut file, Compression::default());
@@ -252,6 +312,9 @@ fn write_renamed(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
             encoder.finish()?;
         } else {
             file.write_all(bytes)?;
+        }
+        if let Ok(replaced) = fs::metadata(path) {
+            file.set_permissions(replaced.permissions())?;
         }
         file.sync_all()?;
         fs::rename(&temporary, path)

@@ -30,6 +30,27 @@ pub struct MeshEntry {
 }
 
 impl MeshEntry {
+    /// A copy that has the connectivity only, which is all that orders go by.
+    #[must_use]
+    pub fn without_positions(&self) -> Self {
+        let Self {
+            name,
+            polygons,
+            runs,
+            mesh,
+            ..
+        } = self;
+        let faces = mesh.faces().to_vec();
+        Self {
+            name: name.clone(),
+            mesh: Mesh::connectivity_only(mesh.vertex_count(), faces)
+                .expect("the same faces as in a mesh"),
+            polygons: polygons.clone(),
+            runs: runs.clone(),
+            ..*self
+        }
+    }
+
     /// How many face records the mesh has.
     #[must_use]
     pub fn record_count(&self) -> usize {

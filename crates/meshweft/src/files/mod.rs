@@ -19,9 +19,10 @@ mod text;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-pub use document::Document;
+pub use document::{Document, remove_abandoned};
 pub use entry::MeshEntry;
 pub use error::{FileError, FileErrorKind, Place};
+pub use gltf::external_buffers;
 pub use options::ReadOptions;
 
 use crate::permutation::{FaceOrder, VertexOrder};

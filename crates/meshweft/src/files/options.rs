@@ -1,5 +1,7 @@
 //! How a file is read: limits, and what to do about what is not known.
 
+use std::path::PathBuf;
+
 use super::error::FileErrorKind;
 use crate::limits::Limits;
 
@@ -22,6 +24,8 @@ pub struct ReadOptions {
     /// Names of glTF extensions, PLY elements and OBJ statements that do not depend on any order,
     /// by the word of the caller.
     pub assume_order_safe: Vec<String>,
+    /// External buffers whose bytes must stay, because other files read them too.
+    pub keep_buffers: Vec<PathBuf>,
     /// Let faces of an OBJ cross `g` and `o` lines, so that groups may lose and gain faces.
     /// Materials and smoothing groups are never crossed.
     pub across_groups: bool,

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::buffers::{Buffers, Source};
+use super::buffers::Buffers;
 use super::json::{Object, Value, malformed};
 use super::records::Records;
 use crate::files::error::Problem;
@@ -28,8 +28,8 @@ pub(super) struct Accessor {
     pub(super) is_strided: bool,
     /// An extension on it, its view or its buffer that is not known here.
     pub(super) unknown_extension: Option<String>,
-    /// Its bytes are part of JSON text that must stay as it is.
-    pub(super) is_fixed: bool,
+    /// Why its bytes must stay.
+    pub(super) fixed: Option<&'static str>,
 }
 
 impl Accessor {
@@ -93,8 +93,6 @@ pub(super) struct Accessors<'a> {
     views: Vec<Value<'a>>,
     buffer_values: Vec<Value<'a>>,
     buffers: &'a Buffers,
-    /// Whether the file is a GLB, whose JSON stays byte for byte.
-    is_glb: bool,
     /// Extensions that the user vouches for.
     assumed_safe: &'a [String],
 }
@@ -114,7 +112,6 @@ impl<'a> Accessors<'a> {
     pub(super) fn new(
         root: &Object<'a>,
         buffers: &'a Buffers,
-        is_glb: bool,
         assumed_safe: &'a [String],
     ) -> Result<Self, Problem> {
         Ok(Self {
@@ -122,7 +119,6 @@ impl<'a> Accessors<'a> {
             views: root.array("bufferViews")?,
             buffer_values: root.array("buffers")?,
             buffers,
-            is_glb,
             assumed_safe,
         })
     }
@@ -138,9 +134,9 @@ impl<'a> Accessors<'a> {
         unknown.map(Cow::into_owned)
     }
 
-    /// Whether the bytes of a storage are part of JSON text that must stay as it is.
-    pub(super) fn is_fixed(&self, storage: usize) -> bool {
-        self.is_glb && self.buffers.storages[storage].source != Source::Binary
+    /// Why the bytes of a storage must stay, if so.
+    pub(super) fn fixed(&self, storage: usize) -> Option<&'static str> {
+        self.buffers.storages[storage].fixed
     }
 
     /// The bytes that hold these records.
@@ -191,7 +187,7 @@ impl<'a> Accessors<'a> {
             is_bounded: object.has("min") || object.has("max"),
             is_strided: false,
             unknown_extension: self.unknown_of(object.extensions()?),
-            is_fixed: false,
+            fixed: None,
             pointer: object.pointer().to_owned(),
         };
         if let Some(view) = object.number("bufferView")? {
@@ -225,7 +221,7 @@ impl<'a> Accessors<'a> {
         let buffer = view.required_number("buffer")?;
         let buffer = Object::new(self.buffer_values[buffer], format!("/buffers/{buffer}"))?;
         accessor.add_unknown(self.unknown_of(buffer.extensions()?));
-        accessor.is_fixed = self.is_fixed(storage);
+        accessor.fixed = self.fixed(storage);
 
         let size = accessor.size;
         // Some exporters write a stride of 0 for "none".

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::base64;
 use super::json::{Object, malformed};
+use crate::files::ReadOptions;
 use crate::files::document::read_limited;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::limits::Limits;
@@ -16,6 +17,8 @@ pub(super) struct Storage {
     pub(super) bytes: Vec<u8>,
     /// Whether a permutation has moved records in it.
     pub(super) is_changed: bool,
+    /// Why nothing in it may be moved.
+    pub(super) fixed: Option<&'static str>,
 }
 
 /// Where the bytes of a storage came from.
@@ -61,8 +64,10 @@ impl Buffers {
         root: &Object,
         binary: Option<Vec<u8>>,
         path: &Path,
-        limits: &Limits,
+        is_glb: bool,
+        options: &ReadOptions,
     ) -> Result<Self, Problem> {
+        let limits = &options.limits;
         let mut buffers = Self::default();
         let mut external = BTreeMap::new();
         let mut binary = binary;
@@ -97,6 +102,20 @@ impl Buffers {
             };
             buffers.of_buffer.push(storage);
         }
+        for storage in &mut buffers.storages {
+            if is_glb && storage.source != Source::Binary {
+                storage.fixed = Some("its data is not in the binary chunk of the GLB");
+            }
+            let Source::External(relative) = &storage.source else {
+                continue;
+            };
+            if options
+                .keep_buffers
+                .contains(&path.with_file_name(relative))
+            {
+                storage.fixed = Some("other files read its buffer too: give this one its own");
+            }
+        }
         // A binary chunk that no buffer names is kept as it is.
         if let Some(bytes) = binary {
             buffers.store(Source::Binary, bytes);
@@ -109,6 +128,7 @@ impl Buffers {
             source,
             bytes,
             is_changed: false,
+            fixed: None,
         });
         self.storages.len() - 1
     }
@@ -182,6 +202,19 @@ impl Loss {
             .at(Place::Json(pointer)),
         }
     }
+}
+
+/// The files that the buffers of a glTF name, as paths beside it; each that is in order.
+pub(super) fn external_paths(root: &Object, path: &Path) -> Result<Vec<PathBuf>, Problem> {
+    let mut paths = Vec::new();
+    for buffer in root.objects("buffers")? {
+        let buffer = buffer?;
+        let uri = buffer.text("uri")?;
+        let uri = uri.filter(|uri| !starts_with_ignoring_case(uri, "data:"));
+        let relative = uri.and_then(|uri| relative_path(&uri).ok());
+        paths.extend(relative.map(|relative| path.with_file_name(relative)));
+    }
+    Ok(paths)
 }
 
 fn read_beside(path: &Path, relative: &Path, limits: &Limits) -> Result<Vec<u8>, Loss> {

@@ -31,6 +31,27 @@ impl Container {
         }
     }
 
+    /// Where the JSON of a `.glb` that starts with these bytes ends.
+    pub(super) fn json_end(start: &[u8]) -> u64 {
+        word(start, 12).map_or(0, |length| length as u64 + 20)
+    }
+
+    /// The start of a `.glb`, with its JSON and perhaps nothing behind.
+    pub(super) fn of_start(bytes: Vec<u8>) -> Result<Self, Problem> {
+        let end = usize::try_from(Self::json_end(&bytes)).unwrap_or(usize::MAX);
+        if !bytes.starts_with(b"glTF") || end < 20 || end > bytes.len() {
+            let kind = FileErrorKind::truncated("the JSON chunk of a GLB");
+            return Err(kind.at(Place::Byte(bytes.len())));
+        }
+        let json = without_mark(&bytes, 20..end);
+        Ok(Self {
+            head: bytes,
+            json,
+            binary: None,
+            tail: Vec::new(),
+        })
+    }
+
     /// A `.glb`: a header of 12 bytes and chunks.
     pub(super) fn of_chunks(mut bytes: Vec<u8>) -> Result<Self, Problem> {
         let at = |kind: FileErrorKind, byte| Err(kind.at(Place::Byte(byte)));

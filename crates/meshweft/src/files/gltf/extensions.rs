@@ -133,7 +133,7 @@ fn read_outline(extensions: &Object, accessors: &Accessors) -> Result<Option<Ind
     let is_list = is_index_type(&accessor)
         && !(accessor.is_sparse
             || accessor.is_compressed
-            || accessor.is_fixed
+            || accessor.fixed.is_some()
             || accessor.is_strided
             || accessor.unknown_extension.is_some());
     Ok(accessor

@@ -30,8 +30,10 @@ mod sparse;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::error::{FileErrorKind, Place, Problem};
+use super::document::{read_limited, read_start};
+use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::{Content, Format, MeshEntry, Note, ReadOptions, ReadResult};
+use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
 use accessors::Accessors;
 use buffers::Buffers;
@@ -67,26 +69,14 @@ pub(super) fn read(
         true => Container::of_chunks(bytes)?,
         false => Container::of_text(bytes),
     };
-    let text = &container.head[container.json.clone()];
-    let json = Json::read(text, limits).map_err(|fault| {
-        let place = match is_glb {
-            true => Place::Byte(container.json.start),
-            false => Place::File,
-        };
-        let kind = match fault {
-            JsonFault::Kind(kind) => kind,
-            JsonFault::Syntax(error) => FileErrorKind::malformed(format!(
-                "the JSON cannot be read: {error}. Export the file again, or mend its text"
-            )),
-        };
-        kind.at(place)
-    })?;
+    let binary = container.binary.take();
+    let json = read_json(&container, limits)?;
     let root = Object::new(json.root(), String::new())?;
     check_version(&root)?;
-    let buffers = Buffers::load(&root, container.binary.take(), path, limits)?;
+    let buffers = Buffers::load(&root, binary, path, is_glb, options)?;
     let uri = |buffer: Value<'_>| buffer.get("uri").map(Value::span);
     let uri_spans = root.array("buffers")?.into_iter().map(uri).collect();
-    let accessors = Accessors::new(&root, &buffers, is_glb, &options.assume_order_safe)?;
+    let accessors = Accessors::new(&root, &buffers, &options.assume_order_safe)?;
     let mut primitives = Primitives::read(&root, &accessors, options)?;
     let mut claims = Claims::new(&root, &accessors, &primitives);
     groups::leave_entangled(&mut primitives, &mut claims);
@@ -100,6 +90,50 @@ pub(super) fn read(
         entries,
     };
     Ok((Box::new(scene), notes))
+}
+
+fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, Problem> {
+    let text = &container.head[container.json.clone()];
+    Json::read(text, limits).map_err(|fault| {
+        // Text behind nothing has its place in the message.
+        let place = match container.json.start {
+            0..=3 => Place::File,
+            start => Place::Byte(start),
+        };
+        let kind = match fault {
+            JsonFault::Kind(kind) => kind,
+            JsonFault::Syntax(error) => FileErrorKind::malformed(format!(
+                "the JSON cannot be read: {error}. Export the file again, or mend its text"
+            )),
+        };
+        kind.at(place)
+    })
+}
+
+/// The files that the buffers of a glTF or GLB name, as paths beside it.
+///
+/// Two files of one folder may name the same: see
+/// [`ReadOptions::keep_buffers`](super::ReadOptions::keep_buffers).
+///
+/// # Errors
+/// [`FileError`]: the file cannot be read, is no glTF, or its JSON is not sound.
+pub fn external_buffers(path: &Path, limits: &Limits) -> Result<Vec<PathBuf>, FileError> {
+    let format = Format::of_path(path);
+    let read = || {
+        let bytes = match format {
+            // The binary chunk of a GLB may be large, and is of no use here.
+            Some(Format::Glb) => read_start(path, limits, Container::json_end),
+            _ => read_limited(path, limits),
+        };
+        let bytes = bytes.map_err(|kind| kind.at(Place::File))?;
+        let container = match format {
+            Some(Format::Glb) => Container::of_start(bytes)?,
+            _ => Container::of_text(bytes),
+        };
+        let json = read_json(&container, limits)?;
+        buffers::external_paths(&Object::new(json.root(), String::new())?, path)
+    };
+    read().map_err(|problem: Problem| problem.in_file(path, format))
 }
 
 fn check_version(root: &Object) -> Result<(), Problem> {

@@ -310,8 +310,8 @@ impl Reader<'_> {
         if accessor.is_compressed {
             restraint.leave("it is compressed by meshopt: decompress it first");
         }
-        if accessor.is_fixed {
-            restraint.leave("its data is not in the binary chunk of the GLB");
+        if let Some(why) = accessor.fixed {
+            restraint.leave(why);
         }
         if let Some(name) = &accessor.unknown_extension {
             restraint.pin_unknown(&accessor.pointer, name);

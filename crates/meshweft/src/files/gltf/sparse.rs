@@ -75,7 +75,7 @@ impl Accessors<'_> {
         let offset = member(part, "byteOffset").unwrap_or(0);
         let length = count.checked_mul(size)?;
         let bytes = self.claimed_bytes(view, offset, Some(length))?;
-        (bytes.size == length && !self.is_fixed(bytes.storage)).then_some(Records {
+        (bytes.size == length && self.fixed(bytes.storage).is_none()).then_some(Records {
             storage: bytes.storage,
             start: bytes.start,
             count,

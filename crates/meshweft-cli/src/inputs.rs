@@ -1,0 +1,155 @@
+//! The files that the command line names: as they are, in folders, by patterns.
+
+use std::path::{Component, Path, PathBuf};
+use std::{fs, io};
+
+use anyhow::{Context, Result};
+use meshweft::files::Format;
+
+use crate::args::Usage;
+
+/// A file to work on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Input {
+    pub(crate) path: PathBuf,
+    /// Its path below what was named, which an output folder repeats.
+    pub(crate) relative: PathBuf,
+}
+
+/// The files behind the names, in the order of the names, each once; within a folder sorted.
+///
+/// A folder gives every mesh file in it and below, without hidden ones and without those in
+/// `except`. A name that is no file but has `*`, `?` or `[` is a pattern.
+pub(crate) fn expand(names: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>> {
+    let except = except.and_then(|folder| fs::canonicalize(folder).ok());
+    let mut inputs: Vec<Input> = Vec::new();
+    for name in names {
+        let before = inputs.len();
+        if name.is_dir() {
+            walk(name, Path::new(""), except.as_deref(), &mut inputs)
+                .with_context(|| name.display().to_string())?;
+        } else if let Some(pattern) = pattern(name) {
+            matching(pattern, &mut inputs)?;
+        } else {
+            // A file that is not there is reported when its turn comes.
+            let relative = name.file_name().map_or_else(|| name.clone(), PathBuf::from);
+            let path = name.clone();
+            inputs.push(Input { path, relative });
+            continue;
+        }
+        if inputs.len() == before {
+            let name = name.display();
+            return Err(Usage(format!("{name}: no mesh file is there")).into());
+        }
+    }
+    let mut seen = std::collections::BTreeSet::new();
+    inputs.retain(|input| seen.insert(input.path.clone()));
+    Ok(inputs)
+}
+
+/// Adds the mesh files in `root` joined with `below`, and deeper.
+fn walk(
+    root: &Path,
+    below: &Path,
+    except: Option<&Path>,
+    inputs: &mut Vec<Input>,
+) -> io::Result<()> {
+    let folder = root.join(below);
+    if except.is_some() && fs::canonicalize(&folder).ok().as_deref() == except {
+        return Ok(());
+    }
+    let mut entries = fs::read_dir(&folder)?.collect::<io::Result<Vec<_>>>()?;
+    entries.sort_by_key(fs::DirEntry::file_name);
+    for entry in entries {
+        let name = entry.file_name();
+        if name.as_encoded_bytes().starts_with(b".") {
+            continue;
+        }
+        let relative = below.join(&name);
+        // Links to folders are not followed: they may lead in circles.
+        if entry.file_type()?.is_dir() {
+            walk(root, &relative, except, inputs)?;
+        } else if Format::of_path(&relative).is_some() && entry.path().is_file() {
+            let path = root.join(&relative);
+            inputs.push(Input { path, relative });
+        }
+    }
+    Ok(())
+}
+
+/// The name as a pattern, if it is one.
+fn pattern(name: &Path) -> Option<&str> {
+    let text = name.to_str()?;
+    (text.contains(['*', '?', '[']) && !name.exists()).then_some(text)
+}
+
+/// Adds the mesh files that a pattern matches.
+fn matching(pattern: &str, inputs: &mut Vec<Input>) -> Result<()> {
+    let paths = glob::glob(pattern).map_err(|error| Usage(format!("{pattern}: {error}")))?;
+    // What stands before the first wildcard is the folder that the output does not repeat.
+    let plain = |part: &Component<'_>| {
+        let text = part.as_os_str().as_encoded_bytes();
+        !text.iter().any(|byte| b"*?[".contains(byte))
+    };
+    let prefix: PathBuf = Path::new(pattern).components().take_while(plain).collect();
+    for path in paths {
+        let path = path.with_context(|| pattern.to_owned())?;
+        if Format::of_path(&path).is_some() && path.is_file() {
+            let relative = path.strip_prefix(&prefix).unwrap_or(&path).to_owned();
+            inputs.push(Input { path, relative });
+        }
+    }
+    Ok(())
+}
+
+/// Share `index` of `count` (from 1) of the inputs: every `count`-th.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Shard {
+    index: usize,
+    count: usize,
+}
+
+impl Shard {
+    /// What of `all` belongs to this share.
+    pub(crate) fn of<T>(self, all: Vec<T>) -> Vec<T> {
+        let first = self.index - 1;
+        all.into_iter().skip(first).step_by(self.count).collect()
+    }
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.split_once('/');
+        let parts = parts.and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match parts {
+            Some((index, count)) if (1..=count).contains(&index) => Ok(Self { index, count }),
+            _ => Err("write I/N with I from 1 to N, such as 2/8".into()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_part_the_inputs() {
+        let input = |n: usize| Input {
+            path: n.to_string().into(),
+            relative: n.to_string().into(),
+        };
+        let all: Vec<Input> = (0..10).map(input).collect();
+        let mut parts = Vec::new();
+        for shard in ["1/3", "2/3", "3/3"] {
+            let shard: Shard = shard.parse().unwrap();
+            parts.extend(shard.of(all.clone()));
+        }
+        assert_eq!(parts.len(), all.len());
+        assert!(all.iter().all(|input| parts.contains(input)));
+        for bad in ["0/3", "4/3", "1", "a/b", "1/0", "1/2/3"] {
+            assert!(bad.parse::<Shard>().is_err(), "{bad}");
+        }
+    }
+}

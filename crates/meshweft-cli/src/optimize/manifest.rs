@@ -1,0 +1,90 @@
+//! The list of what a run has done, by which a later run goes on where it was cut off.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use anyhow::{Context, Result};
+use serde_json::{Value, json};
+
+/// A file of JSON lines, one for each finished input.
+pub(super) struct Manifest {
+    path: PathBuf,
+    file: Mutex<File>,
+    /// Input and output of what was done before.
+    done: BTreeSet<(String, String)>,
+}
+
+impl Manifest {
+    /// Opens the manifest, and reads what is in it.
+    pub(super) fn open(path: &Path) -> Result<Self> {
+        let context = || path.display().to_string();
+        let text = match fs::read(path) {
+            Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(error).with_context(context),
+        };
+        let mut done = BTreeSet::new();
+        let lines = text
+            .split_inclusive('\n')
+            .filter(|line| line.ends_with('\n'));
+        for line in lines {
+            let Ok(line) = serde_json::from_str::<Value>(line) else {
+                continue;
+            };
+            let of = |name: &str| line[name].as_str().map(str::to_owned);
+            if line["status"] == "done"
+                && let Some(pair) = of("file").zip(of("output"))
+            {
+                done.insert(pair);
+            }
+        }
+        let file = OpenOptions::new().append(true).create(true).open(path);
+        let mut file = file.with_context(context)?;
+        // A run that was killed may have left half a line.
+        if !text.is_empty() && !text.ends_with('\n') {
+            file.write_all(b"\n").with_context(context)?;
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            file: Mutex::new(file),
+            done,
+        })
+    }
+
+    /// Whether an earlier run wrote `output` from `input`, and it is still there.
+    pub(super) fn has(&self, input: &Path, output: &Path) -> bool {
+        let pair = (input.display().to_string(), output.display().to_string());
+        self.done.contains(&pair) && output.exists()
+    }
+
+    /// Adds the line of a finished input, whole.
+    pub(super) fn add(
+        &self,
+        input: &Path,
+        output: &Path,
+        result: &Result<Value, String>,
+    ) -> Result<()> {
+        let mut line = json!({
+            "schema": 1,
+            "file": input.display().to_string(),
+            "output": output.display().to_string(),
+        });
+        match result {
+            Ok(total) => {
+                line["status"] = "done".into();
+                line["total"] = total.clone();
+            }
+            Err(error) => {
+                line["status"] = "failed".into();
+                line["error"] = error.as_str().into();
+            }
+        }
+        let line = format!("{line}\n");
+        let mut file = self.file.lock().unwrap_or_else(|lock| lock.into_inner());
+        file.write_all(line.as_bytes())
+            .with_context(|| self.path.display().to_string())
+    }
+}
