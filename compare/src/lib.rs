@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use meshweft::Mesh;
 
+pub mod counting;
 pub mod oracle;
 pub mod rivals;
 pub mod timing;

@@ -11,56 +11,14 @@
 //! and the median is taken. A small mesh that is ordered again and again flatters everybody: the
 //! processor learns its branches.
 
-use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
+use compare::counting::{Counting, with_peak};
 use compare::rivals::Meshopt;
 use compare::timing;
 use meshweft::order::{KCacheReorder, baselines};
 use meshweft::{CacheModel, FaceOrder, Mesh, VertexOrder, cache};
-
-/// The system's allocator, counting.
-struct Counting;
-
-static IN_USE: AtomicUsize = AtomicUsize::new(0);
-static PEAK: AtomicUsize = AtomicUsize::new(0);
-
-fn count_allocation(bytes: usize) {
-    let in_use = IN_USE.fetch_add(bytes, Ordering::Relaxed) + bytes;
-    PEAK.fetch_max(in_use, Ordering::Relaxed);
-}
-
-// SAFETY: every call is passed on unchanged to the system's allocator, which keeps the contract;
-// the counters do not allocate.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count_allocation(layout.size());
-        // SAFETY: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        count_allocation(layout.size());
-        // SAFETY: the caller keeps the contract of `alloc_zeroed`.
-        unsafe { System.alloc_zeroed(layout) }
-    }
-
-    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
-        IN_USE.fetch_sub(layout.size(), Ordering::Relaxed);
-        // SAFETY: the caller keeps the contract of `dealloc`.
-        unsafe { System.dealloc(block, layout) }
-    }
-
-    unsafe fn realloc(&self, block: *mut u8, layout: Layout, new_size: usize) -> *mut u8 {
-        // Both blocks may be there at once.
-        count_allocation(new_size);
-        IN_USE.fetch_sub(layout.size(), Ordering::Relaxed);
-        // SAFETY: the caller keeps the contract of `realloc`.
-        unsafe { System.realloc(block, layout, new_size) }
-    }
-}
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -280,10 +238,7 @@ fn memory(files: &[PathBuf]) -> Result<(), String> {
 }
 
 fn scratch_bytes_per_face(algorithm: &KCacheReorder, mesh: &Mesh) -> f64 {
-    let before = IN_USE.load(Ordering::Relaxed);
-    PEAK.store(before, Ordering::Relaxed);
-    let order = algorithm.face_order(mesh);
-    let peak = PEAK.load(Ordering::Relaxed) - before;
+    let (order, peak) = with_peak(|| algorithm.face_order(mesh));
     let result = order.new_to_old().len() * 4 + order.rotations().len();
     (peak - result) as f64 / mesh.face_count().max(1) as f64
 }

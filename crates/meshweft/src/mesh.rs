@@ -126,6 +126,14 @@ impl Mesh {
         }
     }
 
+    /// As [`with_face_order`](Self::with_face_order), without a copy of the positions.
+    pub(crate) fn into_face_order(self, order: &FaceOrder) -> Self {
+        Self {
+            faces: order.apply(&self.faces),
+            ..self
+        }
+    }
+
     /// The same mesh with its vertices stored in another order and the faces renumbered to match.
     ///
     /// # Panics

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -11,7 +11,7 @@ use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
 
 use super::error::{FileError, FileErrorKind, Place, Problem};
-use super::{Content, Format, MeshEntry, Note, ReadOptions};
+use super::{Content, Format, MeshEntry, Note, OutputFile, ReadOptions};
 use crate::error::MeshError;
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -151,12 +151,12 @@ impl Document {
             let problem = FileErrorKind::Io(error).at(Place::File);
             problem.in_file(path, Some(self.format))
         };
-        for (file, bytes) in self.content.files(path).map_err(in_file)? {
+        for file in self.content.files(path).map_err(in_file)? {
             // Buffers of a glTF may stand in folders below that of the main file.
-            if let Some(folder) = file.parent().filter(|_| file != path) {
+            if let Some(folder) = file.path.parent().filter(|_| file.path != path) {
                 fs::create_dir_all(folder).map_err(|error| io(folder, error))?;
             }
-            write_renamed(&file, &bytes).map_err(|error| io(&file, error))?;
+            write_renamed(&file).map_err(|error| io(&file.path, error))?;
         }
         Ok(())
     }
@@ -169,7 +169,13 @@ impl Document {
     pub fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, FileError> {
         let files = self.content.files(path);
         let mut files = files.map_err(|problem| problem.in_file(path, Some(self.format)))?;
-        Ok(files.pop().map(|(_, bytes)| bytes).unwrap_or_default())
+        let mut bytes = Vec::new();
+        if let Some(main) = files.pop() {
+            let io = |error| FileErrorKind::Io(error).at(Place::File);
+            let written = (main.write)(&mut bytes).map_err(io);
+            written.map_err(|problem| problem.in_file(path, Some(self.format)))?;
+        }
+        Ok(bytes)
     }
 }
 
@@ -216,11 +222,16 @@ fn is_gzip(path: &Path) -> bool {
 }
 
 /// The bytes of a file, or what they decompress to if its name ends in `.gz`.
-fn source(path: &Path) -> io::Result<Box<dyn Read>> {
+///
+/// Comes with the number of bytes to expect, 0 if it is not known.
+fn source(path: &Path) -> io::Result<(Box<dyn Read>, u64)> {
     let file = fs::File::open(path)?;
     Ok(match is_gzip(path) {
-        true => Box::new(MultiGzDecoder::new(io::BufReader::new(file))),
-        false => Box::new(file),
+        true => (Box::new(MultiGzDecoder::new(io::BufReader::new(file))), 0),
+        false => {
+            let length = file.metadata()?.len();
+            (Box::new(file), length)
+        }
     })
 }
 
@@ -231,7 +242,7 @@ pub(super) fn read_start(
     length: impl Fn(&[u8]) -> u64,
 ) -> Result<Vec<u8>, FileErrorKind> {
     const FIRST: u64 = 64;
-    let mut source = source(path).map_err(FileErrorKind::Io)?;
+    let (mut source, _) = source(path).map_err(FileErrorKind::Io)?;
     let mut bytes = Vec::new();
     let mut read = |bytes: &mut Vec<u8>, limit: u64| {
         let left = limit.saturating_sub(bytes.len() as u64);
@@ -245,8 +256,10 @@ pub(super) fn read_start(
 
 /// The bytes of a file, decompressed if its name ends in `.gz`.
 pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Vec<u8>, FileErrorKind> {
-    let mut source = source(path).map_err(FileErrorKind::Io)?;
-    let mut bytes = Vec::new();
+    let (mut source, expected) = source(path).map_err(FileErrorKind::Io)?;
+    // Room for the whole file at once, and for the look whether anything follows.
+    let room = usize::try_from(expected.min(limits.file_bytes)).unwrap_or(0);
+    let mut bytes = Vec::with_capacity(room + 1);
     let limit = limits.file_bytes;
     let read = source
         .by_ref()
@@ -292,10 +305,10 @@ pub fn remove_abandoned(folder: &Path) {
 /// Writes to a temporary file in the same folder and renames it over `path`.
 ///
 /// A link is followed, and a file that is replaced keeps its permissions.
-fn write_renamed(path: &Path, bytes: &[u8]) -> io::Result<()> {
+fn write_renamed(output: &OutputFile<'_>) -> io::Result<()> {
     // Two threads may write one buffer that two files share.
     static NUMBER: AtomicU64 = AtomicU64::new(0);
-    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let path = &fs::canonicalize(&output.path).unwrap_or_else(|_| output.path.clone());
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
@@ -308,15 +321,16 @@ fn write_renamed(path: &Path, bytes: &[u8]) -> io::Result<()> {
         if is_gzip(path) {
             // No time stamp in the header: the same bytes in give the same bytes out.
             let mut encoder = GzEncoder::new(&mut file, Compression::default());
-            encoder.write_all(bytes)?;
+            (output.write)(&mut encoder)?;
             encoder.finish()?;
         } else {
-            file.write_all(bytes)?;
+            (output.write)(&mut file)?;
         }
         if let Ok(replaced) = fs::metadata(path) {
             file.set_permissions(replaced.permissions())?;
+            // The old bytes must not be gone before the new ones are on the disk.
+            file.sync_all()?;
         }
-        file.sync_all()?;
         fs::rename(&temporary, path)
     };
     write().inspect_err(|_| {

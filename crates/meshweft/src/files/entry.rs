@@ -156,6 +156,9 @@ impl MeshEntry {
 
     /// Whether `order` keeps each record within its run.
     pub(crate) fn keeps_runs(&self, order: &FaceOrder) -> bool {
+        if self.runs.len() <= 1 {
+            return true;
+        }
         let run_of = |record: u32| self.runs.partition_point(|&start| start <= record);
         (0_u32..)
             .zip(order.new_to_old())
@@ -168,19 +171,20 @@ impl MeshEntry {
     /// If the order is of another number of records.
     pub fn apply_faces(&mut self, order: &FaceOrder) {
         let Some(starts) = &self.polygons else {
-            self.mesh = self.mesh.with_face_order(order);
+            self.mesh = std::mem::take(&mut self.mesh).into_face_order(order);
             return;
         };
         let mut faces = Vec::with_capacity(self.mesh.face_count());
-        let mut new_starts = vec![0];
+        let mut new_starts = Vec::with_capacity(starts.len());
+        new_starts.push(0);
         for &old in order.new_to_old() {
             let old = old as usize;
-            let span = starts[old] as usize..starts[old + 1] as usize;
-            faces.extend_from_slice(&self.mesh.faces()[span]);
+            faces.extend(starts[old]..starts[old + 1]);
             new_starts.push(index32(faces.len()));
         }
         self.polygons = Some(new_starts);
-        self.replace_faces(faces);
+        let faces = Permutation::from_algorithm(faces).into();
+        self.mesh = std::mem::take(&mut self.mesh).into_face_order(&faces);
     }
 
     /// Moves and renumbers the vertices of this entry; the file it came from is not changed.
@@ -189,16 +193,6 @@ impl MeshEntry {
     /// If the order is of another number of vertices.
     pub fn apply_vertices(&mut self, order: &VertexOrder) {
         self.mesh = self.mesh.with_vertex_order(order);
-    }
-
-    fn replace_faces(&mut self, faces: Vec<[u32; 3]>) {
-        let old = std::mem::take(&mut self.mesh);
-        let (positions, vertex_count) = (old.positions().to_vec(), old.vertex_count());
-        self.mesh = match positions.is_empty() {
-            true => Mesh::connectivity_only(vertex_count, faces),
-            false => Mesh::new(positions, faces),
-        }
-        .expect("the same indices in another order");
     }
 }
 

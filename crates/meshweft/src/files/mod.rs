@@ -16,8 +16,8 @@ mod records;
 mod splice;
 mod text;
 
-use std::fmt;
 use std::path::{Path, PathBuf};
+use std::{fmt, io};
 
 pub use document::{Document, remove_abandoned};
 pub use entry::MeshEntry;
@@ -92,5 +92,14 @@ trait Content {
     /// Permutes records; the caller has checked the lengths.
     fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>);
     /// Every file to write when the document goes to `path`, the main one last.
-    fn files(&self, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Problem>;
+    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem>;
 }
+
+/// A file to be written, its bytes made as they are written.
+struct OutputFile<'a> {
+    path: PathBuf,
+    write: Box<WriteFile<'a>>,
+}
+
+/// Writes all bytes of a file, in large pieces.
+type WriteFile<'a> = dyn Fn(&mut dyn io::Write) -> io::Result<()> + 'a;

@@ -101,12 +101,36 @@ impl FaceRecords {
         self.faces.reserve(count);
     }
 
+    /// Adds a triangle.
+    ///
+    /// # Errors
+    /// As [`push`](Self::push).
+    #[inline]
+    pub(super) fn push_triangle(
+        &mut self,
+        corners: [u32; 3],
+        limits: &Limits,
+    ) -> Result<(), FileErrorKind> {
+        if self.polygons.is_some() || self.count >= limits.faces.min(MAX_FACES) {
+            return self.push(&corners, limits);
+        }
+        self.faces.push(corners);
+        self.count += 1;
+        Ok(())
+    }
+
     /// Adds a record, cut into the fan (0, i, i + 1).
     ///
     /// # Errors
     /// More faces, or more records, than the limit.
     #[inline]
     pub(super) fn push(&mut self, corners: &[u32], limits: &Limits) -> Result<(), FileErrorKind> {
+        if let &[a, b, c] = corners
+            && self.polygons.is_none()
+            && self.count < limits.faces.min(MAX_FACES)
+        {
+            return self.push_triangle([a, b, c], limits);
+        }
         let limit = limits.faces.min(MAX_FACES);
         let added = corners.len().saturating_sub(2);
         if self.count >= limit || self.faces.len() + added > limit {

@@ -5,13 +5,14 @@
 //! there. The source is never changed: orders add up, and the output is spliced when it is asked
 //! for.
 
+use std::io;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::error::Problem;
 use super::records::Spans;
 use super::text::{leading_number, push_number};
-use super::{Content, MeshEntry};
+use super::{Content, MeshEntry, OutputFile};
 use crate::limits::index32;
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -162,7 +163,7 @@ fn record_in(order: &[u32], slot: usize) -> usize {
 }
 
 impl<N: Notation> RecordFile<N> {
-    fn bytes(&self) -> Vec<u8> {
+    fn write(&self, sink: &mut dyn io::Write) -> io::Result<()> {
         let Orders {
             records,
             rotations,
@@ -215,7 +216,7 @@ impl<N: Notation> RecordFile<N> {
                     .write_line(slot, line, change, &mut scratch, out);
             }));
         }
-        spliced(source, layers)
+        spliced(source, layers, sink)
     }
 }
 
@@ -234,8 +235,11 @@ impl<N: Notation> Content for RecordFile<N> {
         }
     }
 
-    fn files(&self, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Problem> {
-        Ok(vec![(path.to_owned(), self.bytes())])
+    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem> {
+        Ok(vec![OutputFile {
+            path: path.to_owned(),
+            write: Box::new(|sink| self.write(sink)),
+        }])
     }
 }
 
@@ -263,10 +267,12 @@ impl<'a> Layer<'a> {
     }
 }
 
-/// The source with each slot of each layer filled anew. Slots do not overlap.
-fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>) -> Vec<u8> {
-    // New numbers may have more digits than the old ones, but not many have.
-    let mut out = Vec::with_capacity(source.len() + source.len() / 16);
+/// Bytes that are gathered before they are written.
+const PIECE: usize = 1 << 18;
+
+/// Writes the source with each slot of each layer filled anew. Slots do not overlap.
+fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>, sink: &mut dyn io::Write) -> io::Result<()> {
+    let mut out = Vec::with_capacity(PIECE + PIECE / 4);
     let mut copied = 0;
     loop {
         // Slots come in long stretches of one kind: find the layer whose turn it is, and stay with
@@ -290,14 +296,24 @@ fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>) -> Vec<u8> {
             if slot.start > until {
                 break;
             }
-            out.extend_from_slice(&source[copied..slot.start]);
+            if slot.start - copied > PIECE {
+                sink.write_all(&out)?;
+                out.clear();
+                sink.write_all(&source[copied..slot.start])?;
+            } else {
+                out.extend_from_slice(&source[copied..slot.start]);
+            }
             (layer.write)(layer.next, &mut out);
             copied = slot.end;
             layer.next += 1;
+            if out.len() >= PIECE {
+                sink.write_all(&out)?;
+                out.clear();
+            }
         }
     }
-    out.extend_from_slice(&source[copied..]);
-    out
+    sink.write_all(&out)?;
+    sink.write_all(&source[copied..])
 }
 
 #[cfg(test)]
@@ -336,6 +352,8 @@ mod tests {
                 out.extend_from_slice([b"DD", b"BB"][slot])
             }),
         ];
-        assert_eq!(spliced(source, layers), b"<c|DD|a|BB>");
+        let mut out = Vec::new();
+        spliced(source, layers, &mut out).unwrap();
+        assert_eq!(out, b"<c|DD|a|BB>");
     }
 }

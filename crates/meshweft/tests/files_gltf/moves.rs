@@ -443,7 +443,10 @@ fn what_is_not_known_can_be_vouched_for_or_refused() {
 #[test]
 fn primitives_are_left_where_faces_cannot_move() {
     type Change = fn(&mut Builder, &mut Value, &mut Value);
-    let cases: [(&str, Change); 9] = [
+    let cases: [(&str, Change); 10] = [
+        ("it has no POSITION", |_, primitive, _| {
+            primitive["attributes"] = json!({"NORMAL": 0});
+        }),
         ("it is drawn as lines", |_, primitive, _| {
             primitive["mode"] = json!(1);
         }),

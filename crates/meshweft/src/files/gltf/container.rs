@@ -99,8 +99,11 @@ impl Container {
         let json = without_mark(&bytes, json);
         let (mut data, mut tail) = (None, Vec::new());
         if let Some(binary) = binary {
+            // The chunk may be large: its bytes stay in the memory that they were read to.
             tail = bytes.split_off(binary.end);
-            data = Some(bytes.split_off(binary.start));
+            let head = bytes[..binary.start].to_vec();
+            bytes.drain(..binary.start);
+            data = Some(std::mem::replace(&mut bytes, head));
         }
         Ok(Self {
             head: bytes,

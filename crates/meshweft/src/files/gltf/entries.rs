@@ -115,6 +115,7 @@ impl Entries {
                 records.sort_unstable();
                 records.dedup();
             }
+            patch::join(&mut group.vertices);
             group.sparse.sort_unstable();
             group.sparse.dedup();
         }
@@ -137,10 +138,10 @@ impl Entries {
         let faces = match &draft.indices {
             Some(list) => {
                 let storage = &buffers.storages[list.records.storage];
-                let numbers = patch::numbers(&storage.bytes, &list.records);
-                check_restart(&numbers, list, draft)?;
-                check_range(&numbers, draft)?;
-                numbers.as_chunks::<3>().0.to_vec()
+                let faces = patch::faces(&storage.bytes, &list.records);
+                check_restart(faces.as_flattened(), list, draft)?;
+                check_range(faces.as_flattened(), draft)?;
+                faces
             }
             None => {
                 let count = index32(draft.vertex_count / 3);

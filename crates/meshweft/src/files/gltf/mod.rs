@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 
 use super::document::{read_limited, read_start};
 use super::error::{FileError, FileErrorKind, Place, Problem};
-use super::{Content, Format, MeshEntry, Note, ReadOptions, ReadResult};
+use super::{Content, Format, MeshEntry, Note, OutputFile, ReadOptions, ReadResult};
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
 use accessors::Accessors;
@@ -242,7 +242,7 @@ impl Content for Scene {
         }
     }
 
-    fn files(&self, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Problem> {
+    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem> {
         let output = Output {
             source: &self.source,
             container: &self.container,

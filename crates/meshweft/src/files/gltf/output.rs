@@ -1,11 +1,13 @@
 //! Where the parts of a glTF go when it is written: its text, and the buffers beside it.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::base64;
 use super::buffers::{Buffers, Source, Storage, percent_encoded};
 use super::container::Container;
+use crate::files::OutputFile;
 use crate::files::error::{FileErrorKind, Place, Problem};
 
 /// What is needed to write the file again.
@@ -18,9 +20,9 @@ pub(super) struct Output<'a> {
     pub(super) uri_spans: &'a [Option<Range<usize>>],
 }
 
-impl Output<'_> {
+impl<'a> Output<'a> {
     /// The files to write when the document goes to `path`, the main one last.
-    pub(super) fn files(&self, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Problem> {
+    pub(super) fn files(&self, path: &Path) -> Result<Vec<OutputFile<'a>>, Problem> {
         let is_same_folder = is_same_folder(self.source, path);
         let is_in_place = is_same_folder && self.source.file_name() == path.file_name();
         let mut files = Vec::new();
@@ -54,11 +56,18 @@ impl Output<'_> {
                         );
                         return Err(FileErrorKind::unsupported(feature).at(Place::File));
                     }
-                    files.push((target, storage.bytes.clone()));
+                    files.push(OutputFile {
+                        path: target,
+                        write: Box::new(|sink| sink.write_all(&storage.bytes)),
+                    });
                 }
             }
         }
-        files.push((path.to_owned(), self.main_file(new_uris)));
+        let parts = self.main_file(new_uris);
+        files.push(OutputFile {
+            path: path.to_owned(),
+            write: Box::new(move |sink| parts.iter().try_for_each(|part| sink.write_all(part))),
+        });
         Ok(files)
     }
 
@@ -96,11 +105,12 @@ impl Output<'_> {
             .unwrap_or(plain))
     }
 
-    fn main_file(&self, mut new_uris: Vec<(usize, String)>) -> Vec<u8> {
+    /// The main file in pieces, with these new URIs of buffers.
+    fn main_file(&self, mut new_uris: Vec<(usize, String)>) -> Vec<Cow<'a, [u8]>> {
         let Container {
             head, json, tail, ..
         } = self.container;
-        let mut spliced = Vec::with_capacity(head.len() + tail.len());
+        let mut parts: Vec<Cow<'a, [u8]>> = Vec::new();
         let mut copied = 0;
         let span_of = |buffer: usize| self.uri_spans.get(buffer).cloned().flatten();
         new_uris.sort_unstable_by_key(|(buffer, _)| *buffer);
@@ -108,21 +118,22 @@ impl Output<'_> {
             let Some(span) = span_of(buffer) else {
                 continue;
             };
-            spliced.extend_from_slice(&head[copied..json.start + span.start]);
-            spliced.extend_from_slice(serde_json::Value::from(uri).to_string().as_bytes());
+            parts.push(head[copied..json.start + span.start].into());
+            let quoted = serde_json::Value::from(uri).to_string();
+            parts.push(quoted.into_bytes().into());
             copied = json.start + span.end;
         }
-        spliced.extend_from_slice(&head[copied..]);
+        parts.push(head[copied..].into());
         let binary = self
             .buffers
             .storages
             .iter()
             .find(|storage| storage.source == Source::Binary);
         if let Some(binary) = binary {
-            spliced.extend_from_slice(&binary.bytes);
+            parts.push(binary.bytes.as_slice().into());
         }
-        spliced.extend_from_slice(tail);
-        spliced
+        parts.push(tail.as_slice().into());
+        parts
     }
 }
 

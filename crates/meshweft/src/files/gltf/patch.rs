@@ -11,14 +11,60 @@ pub(super) fn permute(bytes: &mut [u8], records: &Records, new_to_old: &[u32]) {
         size,
         ..
     } = *records;
-    let mut old = Vec::with_capacity(records.count * size);
-    for i in 0..records.count {
-        old.extend_from_slice(&bytes[start + i * stride..][..size]);
+    // The usual sizes: a copy of a length that the compiler knows is a few instructions.
+    match size {
+        4 => permute_sized::<4>(bytes, records, new_to_old),
+        8 => permute_sized::<8>(bytes, records, new_to_old),
+        12 => permute_sized::<12>(bytes, records, new_to_old),
+        16 => permute_sized::<16>(bytes, records, new_to_old),
+        20 => permute_sized::<20>(bytes, records, new_to_old),
+        24 => permute_sized::<24>(bytes, records, new_to_old),
+        32 => permute_sized::<32>(bytes, records, new_to_old),
+        48 => permute_sized::<48>(bytes, records, new_to_old),
+        _ => {
+            let mut moved = Vec::with_capacity(records.count * size);
+            for &old in new_to_old {
+                moved.extend_from_slice(&bytes[start + old as usize * stride..][..size]);
+            }
+            for (new, record) in moved.chunks_exact(size.max(1)).enumerate() {
+                bytes[start + new * stride..][..size].copy_from_slice(record);
+            }
+        }
     }
-    for (new, &from) in new_to_old.iter().enumerate() {
-        let from = from as usize * size;
-        bytes[start + new * stride..][..size].copy_from_slice(&old[from..from + size]);
+}
+
+fn permute_sized<const SIZE: usize>(bytes: &mut [u8], records: &Records, new_to_old: &[u32]) {
+    let Records { start, stride, .. } = *records;
+    let record = |bytes: &[u8], i: usize| -> [u8; SIZE] {
+        let record = bytes[start + i * stride..].first_chunk::<SIZE>();
+        *record.expect("records are within their storage")
+    };
+    let moved = new_to_old.iter().map(|&old| record(bytes, old as usize));
+    let moved: Vec<[u8; SIZE]> = moved.collect();
+    if stride == SIZE {
+        return bytes[start..records.end()].copy_from_slice(moved.as_flattened());
     }
+    for (new, record) in moved.iter().enumerate() {
+        bytes[start + new * stride..][..SIZE].copy_from_slice(record);
+    }
+}
+
+/// Joins sorted records that are interleaved side by side: they move together.
+pub(super) fn join(all: &mut Vec<Records>) {
+    let mut joined: Vec<Records> = Vec::with_capacity(all.len());
+    for &records in all.iter() {
+        let beside = |last: &&mut Records| {
+            let same = (last.storage, last.count, last.stride);
+            same == (records.storage, records.count, records.stride)
+                && last.start + last.size == records.start
+                && last.size + records.size <= records.stride
+        };
+        match joined.last_mut().filter(beside) {
+            Some(last) => last.size += records.size,
+            None => joined.push(records),
+        }
+    }
+    *all = joined;
 }
 
 /// The vertex order that draws the faces of `order` where each face is three vertices in a row.
@@ -30,6 +76,33 @@ pub(super) fn triples(order: &FaceOrder) -> Vec<u32> {
             [0, 1, 2].map(|corner| 3 * old + (corner + rotation) % 3)
         })
         .collect()
+}
+
+/// The faces of a tight list of unsigned integers, three a face.
+pub(super) fn faces(bytes: &[u8], records: &Records) -> Vec<[u32; 3]> {
+    let list = &bytes[records.start..records.end()];
+    match records.size {
+        1 => list
+            .as_chunks()
+            .0
+            .iter()
+            .map(|f: &[u8; 3]| f.map(u32::from))
+            .collect(),
+        2 => {
+            let (words, _) = list.as_chunks::<2>();
+            let (faces, _) = words.as_chunks::<3>();
+            let number = |word| u32::from(u16::from_le_bytes(word));
+            faces.iter().map(|face| face.map(number)).collect()
+        }
+        _ => {
+            let (words, _) = list.as_chunks::<4>();
+            let (faces, _) = words.as_chunks::<3>();
+            faces
+                .iter()
+                .map(|face| face.map(u32::from_le_bytes))
+                .collect()
+        }
+    }
 }
 
 /// The vertex numbers of a tight list of unsigned integers.
@@ -51,6 +124,11 @@ pub(super) fn write_numbers(
     numbers: impl IntoIterator<Item = u32>,
 ) {
     let list = &mut bytes[records.start..records.end()];
+    if records.size == 4 {
+        let (words, _) = list.as_chunks_mut::<4>();
+        let pairs = words.iter_mut().zip(numbers);
+        return pairs.for_each(|(word, number)| *word = number.to_le_bytes());
+    }
     for (chunk, number) in list.chunks_exact_mut(records.size).zip(numbers) {
         debug_assert!(records.size == 4 || number >> (8 * records.size) == 0);
         chunk.copy_from_slice(&number.to_le_bytes()[..records.size]);
@@ -74,6 +152,58 @@ mod tests {
         };
         permute(&mut bytes, &records, &[2, 0, 1]);
         assert_eq!(&bytes, b"..cc-aa-bb--");
+    }
+
+    #[test]
+    fn records_of_any_size_move_alike() {
+        for size in 1..50 {
+            for stride in [size, size + 3] {
+                let records = Records {
+                    storage: 0,
+                    start: 5,
+                    count: 4,
+                    stride,
+                    size,
+                };
+                let old: Vec<u8> = (0..5 + 4 * 60).collect();
+                let mut bytes = old.clone();
+                permute(&mut bytes, &records, &[3, 0, 2, 1]);
+                let mut expected = old.clone();
+                for (new, from) in [3, 0, 2, 1].into_iter().enumerate() {
+                    let from = &old[5 + from * stride..][..size];
+                    expected[5 + new * stride..][..size].copy_from_slice(from);
+                }
+                assert_eq!(bytes, expected, "{size} {stride}");
+            }
+        }
+    }
+
+    #[test]
+    fn interleaved_neighbours_are_joined() {
+        let records = |start, size| Records {
+            storage: 0,
+            start,
+            count: 3,
+            stride: 16,
+            size,
+        };
+        let mut all = vec![
+            records(0, 4),
+            records(4, 8),
+            records(13, 3),
+            records(48, 12),
+            records(60, 8),
+        ];
+        join(&mut all);
+        assert_eq!(
+            all,
+            [
+                records(0, 12),
+                records(13, 3),
+                records(48, 12),
+                records(60, 8)
+            ]
+        );
     }
 
     #[test]

@@ -205,12 +205,11 @@ impl Reader<'_> {
                 let user = attributes.pointer_to("POSITION");
                 self.accessors.resolve(number, &user)?
             }
-            // An extension may bring the positions.
-            None if self.primitive.has("extensions") => {
+            // An extension may bring the positions; else nothing of it is drawn, which is legal.
+            None => {
                 restraint.leave("it has no POSITION");
                 return Ok((None, VertexData::default()));
             }
-            None => return Err(attributes.problem("POSITION is missing")),
         };
         if position.records.is_none() && !position.is_compressed {
             restraint.leave("its POSITION has no buffer view");

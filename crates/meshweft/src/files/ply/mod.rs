@@ -29,7 +29,7 @@ use crate::files::{MeshEntry, Note, ReadOptions, ReadResult};
 use crate::limits::{Limits, index32};
 use header::{Element, Encoding, Header, Kind, Scalar};
 use notation::PlyNotation;
-use rows::{Ascii, Binary, Fault, Row, Rows};
+use rows::{Ascii, Binary, Fault, Row, Rows, TriangleLayout};
 
 /// Face properties that are about the whole face, so that its corners may be turned.
 const OF_A_WHOLE_FACE: [&str; 17] = [
@@ -328,6 +328,16 @@ fn read_vertices<R: Rows>(rows: &mut R, element: &Element, body: &mut Body) -> R
         let spans = &mut body.vertices;
         return pass_over(rows, element, |_, span| spans.push(span));
     };
+    if let Some((start, positions)) = rows.positions(element, [x, y, z]) {
+        let length = (rows.at() - start) / element.count.max(1);
+        for row in 0..element.count {
+            let at = start + row * length;
+            let pushed = body.vertices.push(at..at + length);
+            pushed.map_err(|kind| Fault { at, kind })?;
+        }
+        body.positions = positions;
+        return Ok(());
+    }
     let axis_of = |number: usize| [x, y, z].iter().position(|&axis| axis == number);
     let axes: Vec<Option<usize>> = (0..element.properties.len()).map(axis_of).collect();
     body.positions.reserve(rows.at_most(element));
@@ -365,11 +375,24 @@ fn read_faces<R: Rows>(
         return Ok(());
     };
     let vertex_count = header.vertex_count();
+    let layout = TriangleLayout::of(element, list);
     let mut corners = Vec::new();
     body.records.reserve(rows.at_most(element));
     for number in 0..element.count {
         let row = Row { element, number };
         let start = rows.start_row();
+        if let Some((span, triangle)) = layout.as_ref().and_then(|layout| rows.triangle(layout)) {
+            if let Some(corner) = triangle.iter().position(|&v| v as usize >= vertex_count) {
+                let index = i64::from(triangle[corner]);
+                let last = vertex_count.checked_sub(1);
+                let kind = past_the_last_vertex("face", number, corner, index, last);
+                return Err(Fault { at: start, kind });
+            }
+            let pushed = body.records.push_triangle(triangle, limits);
+            let pushed = pushed.and_then(|()| body.faces.push(span));
+            pushed.map_err(|kind| Fault { at: start, kind })?;
+            continue;
+        }
         corners.clear();
         for (property_number, property) in element.properties.iter().enumerate() {
             match property.kind {

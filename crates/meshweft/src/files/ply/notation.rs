@@ -13,6 +13,9 @@ pub(super) struct PlyNotation {
     encoding: Encoding,
     /// The face element, and which of its properties is the list of corners.
     face: Option<(Element, usize)>,
+    /// How many bytes of a binary row come before the first corner, and the type of corners, where
+    /// that is the same in all rows.
+    first_corner: Option<(usize, Scalar)>,
 }
 
 impl PlyNotation {
@@ -20,7 +23,29 @@ impl PlyNotation {
         let face = header.element("face");
         let face = face.and_then(|face| Some((face.clone(), face.corner_list()?)));
         let encoding = header.encoding;
-        Self { encoding, face }
+        let mut notation = Self {
+            encoding,
+            face,
+            first_corner: None,
+        };
+        notation.first_corner = notation.find_first_corner();
+        notation
+    }
+
+    fn find_first_corner(&self) -> Option<(usize, Scalar)> {
+        let (element, list) = self.face.as_ref()?;
+        let mut offset = 0;
+        for property in &element.properties[..*list] {
+            match property.kind {
+                Kind::Scalar(scalar) => offset += scalar.size(),
+                Kind::List { .. } => return None,
+            }
+        }
+        match element.properties[*list].kind {
+            // A length in one byte is read at once.
+            Kind::List { count, item } if count.size() == 1 => Some((offset + 1, item)),
+            _ => None,
+        }
     }
 
     /// Where the corners of a row start, how many there are, and their type.
@@ -53,6 +78,23 @@ impl PlyNotation {
         let size = item.size();
         let copy_start = out.len();
         out.extend_from_slice(record);
+        if size == 4 {
+            let corners = record[start..].as_chunks::<4>().0;
+            let slots = out[copy_start + start..].as_chunks_mut::<4>().0;
+            for (corner, slot) in slots.iter_mut().take(count).enumerate() {
+                let bytes = corners[change.turned(corner, count)];
+                *slot = match (change.old_to_new.is_empty(), BIG) {
+                    (true, _) => bytes,
+                    (_, true) => {
+                        change.old_to_new[u32::from_be_bytes(bytes) as usize].to_be_bytes()
+                    }
+                    (_, false) => {
+                        change.old_to_new[u32::from_le_bytes(bytes) as usize].to_le_bytes()
+                    }
+                };
+            }
+            return;
+        }
         for corner in 0..count {
             let turned = start + change.turned(corner, count) * size;
             let bytes = &record[turned..turned + size];
@@ -95,7 +137,12 @@ impl Notation for PlyNotation {
         scratch: &mut Vec<Range<usize>>,
         out: &mut Vec<u8>,
     ) {
+        let at_once = self.first_corner.and_then(|(first, item)| {
+            let count = usize::from(*record.get(first - 1)?);
+            (self.encoding != Encoding::Ascii).then_some((first, count, item))
+        });
         let corners = match self.encoding {
+            _ if at_once.is_some() => at_once,
             Encoding::Ascii => self.corners(Ascii::new(record, 0)),
             Encoding::LittleEndian => self.corners(Binary::<false>::new(record, 0)),
             Encoding::BigEndian => self.corners(Binary::<true>::new(record, 0)),

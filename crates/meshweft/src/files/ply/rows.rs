@@ -1,6 +1,8 @@
 //! Reading the rows of a PLY file, ascii or binary, value by value.
 
-use super::header::{Element, Scalar};
+use std::ops::Range;
+
+use super::header::{Element, Kind, Property, Scalar};
 use crate::files::error::FileErrorKind;
 use crate::files::text::{Tokens, coordinate, is_blank, is_line_end, shown, whole_number};
 
@@ -49,6 +51,61 @@ pub(super) trait Rows {
     fn whole(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault>;
     /// How many rows of the element can be there, by the bytes that are left.
     fn at_most(&self, element: &Element) -> usize;
+
+    /// The positions in rows of numbers only, if their coordinates are floats of four bytes and the
+    /// rows are all there; and where the rows start. A faster way, for rows of one length.
+    fn positions(
+        &mut self,
+        _element: &Element,
+        _axes: [usize; 3],
+    ) -> Option<(usize, Vec<[f32; 3]>)> {
+        None
+    }
+
+    /// The row with its corners, if it is a triangle of the layout and is all there. A faster way,
+    /// that leaves whatever is unusual to the other.
+    #[inline]
+    fn triangle(&mut self, _layout: &TriangleLayout) -> Option<(Range<usize>, [u32; 3])> {
+        None
+    }
+}
+
+/// Rows with numbers around one list of corners, of four bytes each, its length in one byte.
+pub(super) struct TriangleLayout {
+    /// Bytes before the list.
+    before: usize,
+    /// Bytes behind it.
+    after: usize,
+    /// Whether a corner may be negative.
+    is_signed: bool,
+}
+
+impl TriangleLayout {
+    /// The layout of an element's rows, if they have it.
+    pub(super) fn of(element: &Element, list: usize) -> Option<Self> {
+        let size = |property: &Property| match property.kind {
+            Kind::Scalar(scalar) => Some(scalar.size()),
+            Kind::List { .. } => None,
+        };
+        let (before, rest) = element.properties.split_at_checked(list)?;
+        let (list, after) = rest.split_first()?;
+        let is_signed = match list.kind {
+            Kind::List {
+                count: Scalar::U8 | Scalar::I8,
+                item: Scalar::I32,
+            } => true,
+            Kind::List {
+                count: Scalar::U8 | Scalar::I8,
+                item: Scalar::U32,
+            } => false,
+            _ => return None,
+        };
+        Some(Self {
+            before: before.iter().map(size).sum::<Option<usize>>()?,
+            after: after.iter().map(size).sum::<Option<usize>>()?,
+            is_signed,
+        })
+    }
 }
 
 /// Rows as lines of text.
@@ -228,5 +285,59 @@ impl<const BIG: bool> Rows for Binary<'_, BIG> {
     fn at_most(&self, element: &Element) -> usize {
         let left = self.source.len() - self.at;
         element.count.min(left / element.smallest_row().max(1) + 1)
+    }
+
+    fn positions(&mut self, element: &Element, axes: [usize; 3]) -> Option<(usize, Vec<[f32; 3]>)> {
+        let mut offsets = Vec::with_capacity(element.properties.len());
+        let mut length = 0;
+        for property in &element.properties {
+            let Kind::Scalar(scalar) = property.kind else {
+                return None;
+            };
+            offsets.push((length, scalar));
+            length += scalar.size();
+        }
+        let offsets = axes.map(|axis| offsets[axis]);
+        if offsets.iter().any(|&(_, scalar)| scalar != Scalar::F32) {
+            return None;
+        }
+        let start = self.at;
+        let end = element.count.checked_mul(length)?.checked_add(start)?;
+        let rows = self.source.get(start..end)?;
+        self.at = end;
+        let position = |row: &[u8]| {
+            offsets.map(|(offset, _)| {
+                let bytes = row[offset..].first_chunk().copied().unwrap_or_default();
+                match BIG {
+                    true => f32::from_be_bytes(bytes),
+                    false => f32::from_le_bytes(bytes),
+                }
+            })
+        };
+        let rows = rows.chunks_exact(length.max(1));
+        Some((start, rows.map(position).collect()))
+    }
+
+    #[inline]
+    fn triangle(&mut self, layout: &TriangleLayout) -> Option<(Range<usize>, [u32; 3])> {
+        let start = self.at;
+        let row = self
+            .source
+            .get(start..)?
+            .get(..layout.before + 13 + layout.after)?;
+        let list = row[layout.before..].first_chunk::<13>()?;
+        let (&3, corners) = list.split_first()? else {
+            return None;
+        };
+        let corners = corners.as_chunks::<4>().0.first_chunk::<3>()?;
+        let corners = corners.map(|corner| match BIG {
+            true => u32::from_be_bytes(corner),
+            false => u32::from_le_bytes(corner),
+        });
+        if layout.is_signed && corners.iter().any(|&corner| corner > i32::MAX as u32) {
+            return None;
+        }
+        self.at = start + row.len();
+        Some((start..self.at, corners))
     }
 }
