@@ -8,7 +8,8 @@
 import { writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
-const PRIVATE = "ACME_private";
+/** The extension that nobody knows. */
+export const PRIVATE = "ACME_private";
 const FLOAT = 5126;
 const UNSIGNED_BYTE = 5121;
 const UNSIGNED_SHORT = 5123;
