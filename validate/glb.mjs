@@ -46,8 +46,10 @@ export class Glb {
                 : this.#numbers(bufferView, byteOffset, componentType, width, count);
         if (sparse) {
             const { indices, values } = sparse;
-            const places = this.#numbers(indices.bufferView, indices.byteOffset ?? 0, indices.componentType, 1, sparse.count);
-            const given = this.#numbers(values.bufferView, values.byteOffset ?? 0, componentType, width, sparse.count);
+            const read = ({ bufferView, byteOffset = 0 }, type, columns) =>
+                this.#numbers(bufferView, byteOffset, type, columns, sparse.count);
+            const places = read(indices, indices.componentType, 1);
+            const given = read(values, componentType, width);
             places.forEach(([place], i) => (elements[place] = given[i]));
         }
         return normalized ? elements.map((element) => element.map((x) => x / LARGEST[componentType])) : elements;

@@ -4,7 +4,7 @@
 // Usage: node gltf.mjs MESHWEFT DATA_FOLDER
 
 import { execFile } from "node:child_process";
-import { cp, mkdir, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
+import { copyFile, mkdir, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { basename, dirname, join, relative } from "node:path";
 import { isDeepStrictEqual, promisify } from "node:util";
@@ -138,11 +138,21 @@ class Tally {
 const isGlb = (file) => file.endsWith(".glb");
 const names = (list) => (list.length ? ` (${list.join(", ")})` : "");
 
+/** Copies all files; the folders may be written, whatever those of the source may. */
+async function copyBelow(from, to) {
+    for (const entry of await readdir(from, { recursive: true, withFileTypes: true })) {
+        const target = join(to, relative(from, entry.parentPath));
+        await mkdir(target, { recursive: true });
+        if (entry.isFile()) await copyFile(join(entry.parentPath, entry.name), join(target, entry.name));
+    }
+}
+
 async function check(source, name, scratch, tally) {
     const folder = join(scratch, "out");
     await rm(folder, { recursive: true, force: true });
+    await mkdir(folder);
     // Textures are not written by the program, so all that stands beside the source comes along.
-    await (isGlb(source) ? mkdir(folder) : cp(dirname(source), folder, { recursive: true }));
+    if (!isGlb(source)) await copyBelow(dirname(source), folder);
     const result = join(folder, basename(source));
     await rm(result, { force: true });
     try {
@@ -183,9 +193,11 @@ async function notMoved(before, after) {
     const [old, now] = [new Glb(await readFile(before)), new Glb(await readFile(after))];
     const isSame = (accessor) => isDeepStrictEqual(old.elements(accessor), now.elements(accessor));
     return old.json.meshes.flatMap(({ name, primitives: [{ attributes, indices }] }) => {
-        const vertices = !["private", "sparse"].includes(name);
+        const mayMove = !["private", "sparse"].includes(name);
         const wrong = isSame(indices) ? [`made.glb: ${name}: its faces did not move`] : [];
-        if (isSame(attributes.POSITION) === vertices) wrong.push(`made.glb: ${name}: its vertices did${vertices ? " not" : ""} move`);
+        if (isSame(attributes.POSITION) === mayMove) {
+            wrong.push(`made.glb: ${name}: its vertices ${mayMove ? "did not move" : "moved"}`);
+        }
         return wrong;
     });
 }

@@ -13,7 +13,8 @@ import { isDeepStrictEqual, promisify } from "node:util";
 import validator from "gltf-validator";
 
 import { Glb } from "./glb.mjs";
-import { make, objects, PRIVATE } from "./made.mjs";
+import { make } from "./made.mjs";
+import { objects, PRIVATE } from "./objects.mjs";
 
 const [program, python] = process.argv.slice(2);
 const run = promisify(execFile);

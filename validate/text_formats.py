@@ -179,7 +179,12 @@ def check(program: str, file: Path, scratch: Path, tally: Tally) -> None:
         tally.left_out.append(f"{file.name}: {faces} faces")
         return
     result = scratch / file.name
-    subprocess.run([program, "optimize", str(file), "-o", str(result), "--quiet"], check=True)
+    optimized = subprocess.run(
+        [program, "optimize", str(file), "-o", str(result), "--quiet"], capture_output=True, text=True
+    )
+    if optimized.returncode:
+        tally.problems.append(f"{name}: {optimized.stderr.strip()}")
+        return
     tally.changed += file.read_bytes() != result.read_bytes()
     try:
         before = dict(geometries(file))
