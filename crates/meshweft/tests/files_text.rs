@@ -13,7 +13,7 @@ mod simple;
 
 use std::path::Path;
 
-use meshweft::files::{Document, Format, MeshEntry};
+use meshweft::files::{Document, FileError, FileErrorKind, Format, MeshEntry};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 use simple::Pieces;
 
@@ -81,8 +81,19 @@ fn error(bytes: &[u8], format: Format) -> String {
     let limits = Limits::default();
     match Document::from_bytes(bytes.to_vec(), format, name_of(format), limits) {
         Ok(_) => panic!("{:?} was read", String::from_utf8_lossy(bytes)),
-        Err(error) => error.to_string(),
+        Err(error) => message(&error),
     }
+}
+
+/// The message without the advice that is the same for all of its kind, which must be there.
+fn message(error: &FileError) -> String {
+    let advice = match error.kind {
+        FileErrorKind::Malformed { .. } => ". Mend it there, or export the file again",
+        FileErrorKind::OverLimit { .. } => ". Split the file, or allow more",
+        _ => "",
+    };
+    let text = error.to_string();
+    text.strip_suffix(advice).expect("advice").to_owned()
 }
 
 /// Asserts that `new` is `old` with its records in these orders, and nothing else.

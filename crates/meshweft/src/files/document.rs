@@ -265,7 +265,14 @@ pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Vec<u8>, File
         .by_ref()
         .take(limit.saturating_add(1))
         .read_to_end(&mut bytes);
-    let found = read.map_err(FileErrorKind::Io)? as u64;
+    let found = read.map_err(|error| match is_gzip(path) && error.raw_os_error().is_none() {
+        // Not the system but the decompressor.
+        true => FileErrorKind::malformed(format!(
+            "the compressed data is damaged after {} bytes of content ({error})",
+            bytes.len()
+        )),
+        false => FileErrorKind::Io(error),
+    })? as u64;
     match found > limit {
         true => Err(FileErrorKind::OverLimit {
             what: "bytes or more",

@@ -137,9 +137,14 @@ impl fmt::Display for FileErrorKind {
                 f,
                 "the file ends inside {what}. Fetch or export it again: it is incomplete"
             ),
-            Self::Malformed { problem } => f.write_str(problem),
+            Self::Malformed { problem } => {
+                write!(f, "{problem}. Mend it there, or export the file again")
+            }
             Self::OverLimit { what, found, limit } => {
-                write!(f, "{found} {what}: more than the limit of {limit}")
+                write!(
+                    f,
+                    "{found} {what}: more than the limit of {limit}. Split the file, or allow more"
+                )
             }
             Self::Unsupported { feature } => f.write_str(feature),
             Self::Order(error) => write!(f, "{error}"),

@@ -188,9 +188,8 @@ pub(super) fn past_the_last_vertex(
         Some(last) => format!(" is past the last vertex ({last})"),
         None => ", but the file has no vertices".to_owned(),
     };
-    let remedy = "Repair or export it again: nothing can be moved while a face names no vertex";
     FileErrorKind::malformed(format!(
-        "{what} {number}, corner {corner}: index {index}{but}. {remedy}"
+        "{what} {number}, corner {corner}: index {index}{but}"
     ))
 }
 

@@ -102,9 +102,9 @@ fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, 
         };
         let kind = match fault {
             JsonFault::Kind(kind) => kind,
-            JsonFault::Syntax(error) => FileErrorKind::malformed(format!(
-                "the JSON cannot be read: {error}. Export the file again, or mend its text"
-            )),
+            JsonFault::Syntax(error) => {
+                FileErrorKind::malformed(format!("the JSON cannot be read: {error}"))
+            }
         };
         kind.at(place)
     })
