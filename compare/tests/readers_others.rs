@@ -194,7 +194,10 @@ fn reordered(file: &Path) -> Vec<u8> {
             keep_corners: !entry.corners_turnable || entry.polygons.is_some(),
             ..Default::default()
         };
-        let faces = entry.record_order(|mesh| algorithm.face_order(mesh));
+        let faces = entry.record_order(|mesh, polygons| match polygons {
+            Some(starts) => algorithm.polygon_order(mesh, starts),
+            None => algorithm.face_order(mesh),
+        });
         entry.apply_faces(&faces);
         let group = entry.vertex_group;
         let members = document.meshes().iter().filter(|m| m.vertex_group == group);

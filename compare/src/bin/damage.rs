@@ -279,7 +279,10 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
     for mesh in 0..document.meshes().len() {
         let entry = &document.meshes()[mesh];
         let mut ordered = entry.without_positions();
-        let faces = entry.record_order(|mesh| algorithm.face_order(mesh));
+        let faces = entry.record_order(|mesh, polygons| match polygons {
+            Some(starts) => algorithm.polygon_order(mesh, starts),
+            None => algorithm.face_order(mesh),
+        });
         ordered.apply_faces(&faces);
         let misses = |entry: &meshweft::files::MeshEntry| {
             cache::misses(entry.mesh.faces(), CacheModel::fifo(12))

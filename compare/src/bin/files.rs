@@ -119,7 +119,10 @@ fn orders(document: &Document) -> (FaceOrder, Option<VertexOrder>) {
         cache: CacheModel::fifo(12),
         ..Default::default()
     };
-    let faces = entry.record_order(|mesh| algorithm.face_order(mesh));
+    let faces = entry.record_order(|mesh, polygons| match polygons {
+            Some(starts) => algorithm.polygon_order(mesh, starts),
+            None => algorithm.face_order(mesh),
+        });
     let vertices = entry.vertices_movable.then(|| {
         let mesh = entry.mesh.with_face_order(&faces);
         vertex_fetch(mesh.faces(), mesh.vertex_count())

@@ -127,8 +127,12 @@ impl FaceChange {
             keep_corners: algorithm.keep_corners || !turnable,
             ..algorithm.clone()
         };
+        let is_fifo = matches!(algorithm.cache, CacheModel::Fifo { .. });
         let mut scheduled = 0;
-        let order = entry.record_order(|mesh| order_and_count(&algorithm, mesh, &mut scheduled));
+        let order = entry.record_order(|mesh, polygons| match polygons {
+            Some(starts) if is_fifo => algorithm.polygon_order(mesh, starts),
+            _ => order_and_count(&algorithm, mesh, &mut scheduled),
+        });
         if order.is_identity() {
             return false;
         }

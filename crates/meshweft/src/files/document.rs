@@ -25,7 +25,10 @@ use crate::permutation::{FaceOrder, VertexOrder};
 /// let mut document = Document::open(Path::new("scene.glb"), Limits::default())?;
 /// let algorithm = KCacheReorder { cache: CacheModel::fifo(12), ..Default::default() };
 /// for mesh in 0..document.meshes().len() {
-///     let order = document.meshes()[mesh].record_order(|mesh| algorithm.face_order(mesh));
+///     let order = document.meshes()[mesh].record_order(|mesh, polygons| match polygons {
+///         Some(starts) => algorithm.polygon_order(mesh, starts),
+///         None => algorithm.face_order(mesh),
+///     });
 ///     document.apply(mesh, &order, None)?;
 /// }
 /// document.write(Path::new("ordered.glb"))?;
@@ -265,14 +268,16 @@ pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Vec<u8>, File
         .by_ref()
         .take(limit.saturating_add(1))
         .read_to_end(&mut bytes);
-    let found = read.map_err(|error| match is_gzip(path) && error.raw_os_error().is_none() {
-        // Not the system but the decompressor.
-        true => FileErrorKind::malformed(format!(
-            "the compressed data is damaged after {} bytes of content ({error})",
-            bytes.len()
-        )),
-        false => FileErrorKind::Io(error),
-    })? as u64;
+    let found = read.map_err(
+        |error| match is_gzip(path) && error.raw_os_error().is_none() {
+            // Not the system but the decompressor.
+            true => FileErrorKind::malformed(format!(
+                "the compressed data is damaged after {} bytes of content ({error})",
+                bytes.len()
+            )),
+            false => FileErrorKind::Io(error),
+        },
+    )? as u64;
     match found > limit {
         true => Err(FileErrorKind::OverLimit {
             what: "bytes or more",

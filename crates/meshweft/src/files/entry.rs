@@ -70,16 +70,21 @@ impl MeshEntry {
 
     /// An order of the records, made by ordering each run on its own with `face_order`.
     ///
-    /// `face_order` sees one run as a mesh of triangles over the vertices it uses. Polygons follow
-    /// their first triangle and are never turned; triangles are turned only if the file allows it.
+    /// `face_order` sees one run as a mesh of triangles over the vertices it uses and, if there are
+    /// polygons, where the triangles of each start (and the end of the last). A polygon goes where
+    /// the first of its triangles goes and is never turned; triangles are turned only if the file
+    /// allows it.
     ///
     /// # Complexity
     /// That of `face_order` on each run, plus O(faces + vertices).
-    pub fn record_order(&self, mut face_order: impl FnMut(&Mesh) -> FaceOrder) -> FaceOrder {
+    pub fn record_order(
+        &self,
+        mut face_order: impl FnMut(&Mesh, Option<&[u32]>) -> FaceOrder,
+    ) -> FaceOrder {
         let record_count = self.record_count();
         let turn = self.corners_turnable && self.polygons.is_none();
         if self.runs.len() <= 1 && self.polygons.is_none() {
-            let order = face_order(&self.mesh);
+            let order = face_order(&self.mesh, None);
             return match turn {
                 true => order,
                 false => order.permutation().clone().into(),
@@ -113,13 +118,20 @@ impl MeshEntry {
         &self,
         run: std::ops::Range<usize>,
         local_of: &mut [u32],
-        face_order: &mut impl FnMut(&Mesh) -> FaceOrder,
+        face_order: &mut impl FnMut(&Mesh, Option<&[u32]>) -> FaceOrder,
         mut emit: impl FnMut(u32, u8),
     ) {
+        if run.len() == 1 {
+            return emit(index32(run.start), 0);
+        }
         let mut global_of = Vec::new();
         let mut faces = Vec::new();
         let mut record_of = Vec::new();
+        let mut starts = Vec::new();
         for record in run.clone() {
+            if self.polygons.is_some() && !self.faces_of(record).is_empty() {
+                starts.push(index32(faces.len()));
+            }
             for face in self.faces_of(record) {
                 record_of.push(index32(record));
                 faces.push(self.mesh.faces()[face].map(|vertex| {
@@ -133,7 +145,8 @@ impl MeshEntry {
             }
         }
         let mesh = Mesh::connectivity_only(global_of.len(), faces).expect("indices are local");
-        let order = face_order(&mesh);
+        starts.push(index32(mesh.face_count()));
+        let order = face_order(&mesh, self.polygons.is_some().then_some(&starts[..]));
         // A polygon goes where the first of its triangles went; one with no triangle (a point, a
         // line) stays behind the others.
         let mut placed = vec![false; run.len()];
@@ -200,7 +213,7 @@ impl MeshEntry {
 mod tests {
     use super::*;
 
-    fn reversed(mesh: &Mesh) -> FaceOrder {
+    fn reversed(mesh: &Mesh, _polygons: Option<&[u32]>) -> FaceOrder {
         let last_first = (0..index32(mesh.face_count())).rev().collect();
         let rotations = vec![1; mesh.face_count()];
         FaceOrder::new(Permutation::from_algorithm(last_first), rotations).unwrap()
@@ -224,9 +237,9 @@ mod tests {
         let entry = entry(faces, None, vec![0, 1]);
         let order = entry.record_order(reversed);
         assert_eq!(order.new_to_old(), [0, 3, 2, 1]);
-        assert_eq!(order.rotations(), [1; 4]);
+        assert_eq!(order.rotations(), [0, 1, 1, 1], "one alone stays");
         assert!(entry.keeps_runs(&order));
-        assert!(!entry.keeps_runs(&reversed(&entry.mesh)));
+        assert!(!entry.keeps_runs(&reversed(&entry.mesh, None)));
     }
 
     #[test]

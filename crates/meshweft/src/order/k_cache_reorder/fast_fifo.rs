@@ -49,15 +49,60 @@ pub(super) fn face_order(
 ) -> FaceOrder {
     let mut growth = Growth::new(faces, vertex_count, size, costs);
     match keep_corners {
-        true => growth.run::<true>(first_focus),
-        false => growth.run::<false>(first_focus),
+        true => growth.run::<true, false>(first_focus),
+        false => growth.run::<false, false>(first_focus),
     }
-    let permutation = Permutation::from_algorithm(growth.new_to_old);
-    FaceOrder::new(permutation, growth.rotations).expect("one rotation below 3 a face")
+    growth.order()
+}
+
+/// As [`face_order`] with corners kept, for polygons that are drawn as a whole: faces
+/// `starts[i]..starts[i + 1]` are polygon `i`.
+pub(super) fn polygon_order(
+    faces: &[[u32; 3]],
+    starts: &[u32],
+    vertex_count: usize,
+    size: u32,
+    costs: &Costs,
+    first_focus: Option<u32>,
+) -> FaceOrder {
+    let mut growth = Growth::new(faces, vertex_count, size, costs);
+    let polygons = (0_u32..).zip(starts.windows(2));
+    let polygon_of = polygons.flat_map(|(polygon, ends)| (ends[0]..ends[1]).map(move |_| polygon));
+    growth.polygons = Polygons {
+        starts,
+        of_face: polygon_of.collect(),
+    };
+    growth.run::<true, true>(first_focus);
+    growth.order()
+}
+
+/// Faces that are drawn together; empty where each is on its own.
+#[derive(Default)]
+struct Polygons<'a> {
+    /// Their first faces, and the end of the last.
+    starts: &'a [u32],
+    of_face: Vec<u32>,
+}
+
+impl Polygons<'_> {
+    /// The faces of the polygon that `face` belongs to.
+    #[inline]
+    fn faces(&self, face: u32) -> std::ops::Range<u32> {
+        let polygon = self.of_face[face as usize] as usize;
+        self.starts[polygon]..self.starts[polygon + 1]
+    }
+}
+
+impl Growth<'_> {
+    fn order(self) -> FaceOrder {
+        let permutation = Permutation::from_algorithm(self.new_to_old);
+        FaceOrder::new(permutation, self.rotations).expect("one rotation below 3 a face")
+    }
 }
 
 struct Growth<'a> {
     live: LiveFaces<'a>,
+    polygons: Polygons<'a>,
     costs: &'a Costs,
     size: u32,
     candidates: usize,
@@ -88,6 +133,7 @@ impl<'a> Growth<'a> {
         let ring = (size as usize + 1).next_power_of_two();
         Self {
             live: LiveFaces::new(faces, vertex_count),
+            polygons: Polygons::default(),
             costs,
             size,
             candidates: candidate_count(size),
@@ -107,10 +153,10 @@ impl<'a> Growth<'a> {
         }
     }
 
-    fn run<const KEEP_CORNERS: bool>(&mut self, first_focus: Option<u32>) {
+    fn run<const KEEP_CORNERS: bool, const POLYGONS: bool>(&mut self, first_focus: Option<u32>) {
         let mut next = first_focus;
         loop {
-            next = next.or_else(|| self.cheapest_candidate::<KEEP_CORNERS>());
+            next = next.or_else(|| self.cheapest_candidate::<KEEP_CORNERS, POLYGONS>());
             let Some(focus) = next.or_else(|| self.live.after_dead_end()) else {
                 return;
             };
@@ -119,7 +165,16 @@ impl<'a> Growth<'a> {
             }
             self.run.vertex = None;
             for i in 0..self.run.len {
-                self.draw::<KEEP_CORNERS>(self.run.faces[i]);
+                let face = self.run.faces[i];
+                match POLYGONS {
+                    false => self.draw::<KEEP_CORNERS>(face),
+                    // The polygon's other faces at this vertex are drawn by then.
+                    true => {
+                        for face in self.polygons.faces(face) {
+                            self.draw::<KEEP_CORNERS>(face);
+                        }
+                    }
+                }
             }
             next = None;
         }
@@ -133,7 +188,9 @@ impl<'a> Growth<'a> {
 
     /// The candidate of least cost, ties to the oldest; `None` if no live vertex is in the cache.
     #[inline]
-    fn cheapest_candidate<const KEEP_CORNERS: bool>(&mut self) -> Option<u32> {
+    fn cheapest_candidate<const KEEP_CORNERS: bool, const POLYGONS: bool>(
+        &mut self,
+    ) -> Option<u32> {
         if self.queue.entries().is_empty() {
             return None;
         }
@@ -171,11 +228,13 @@ impl<'a> Growth<'a> {
             let vertex = &self.live.vertices[focus as usize];
             // Without a push, or with one face left whose hits come first, nothing that is needed
             // can be evicted: the estimate is the cost.
-            let is_exact = vertex.white_corners == 0 || !KEEP_CORNERS && vertex.live == 1;
+            // (Of polygons the estimate knows no more than the faces at the vertex.)
+            let is_exact =
+                !POLYGONS && vertex.white_corners == 0 || !KEEP_CORNERS && vertex.live == 1;
             if is_exact || confirmed >> best & 1 != 0 || vertex.live > HUB {
                 return Some(focus);
             }
-            let exact = self.tentative_cost::<KEEP_CORNERS>(focus);
+            let exact = self.tentative_cost::<KEEP_CORNERS, POLYGONS>(focus);
             if exact <= cost[best] {
                 return Some(focus);
             }
@@ -189,11 +248,14 @@ impl<'a> Growth<'a> {
 
     /// The cost of `focus` by drawing its live faces and taking everything back.
     #[inline]
-    fn tentative_cost<const KEEP_CORNERS: bool>(&mut self, focus: u32) -> i64 {
+    fn tentative_cost<const KEEP_CORNERS: bool, const POLYGONS: bool>(
+        &mut self,
+        focus: u32,
+    ) -> i64 {
         self.gather(focus);
         let (size, mut clock) = (self.size, self.clock);
         let (vertices, undo) = (&mut self.live.vertices[..], &mut self.run.undo);
-        for &face in &self.run.faces[..self.run.len] {
+        let mut run = |face: u32| {
             let corners = self.live.faces[face as usize];
             let missing = corners.map(|corner| {
                 let entered = vertices[corner as usize].entered;
@@ -206,6 +268,26 @@ impl<'a> Growth<'a> {
                     *entered = clock;
                     clock = clock.wrapping_add(1);
                 }
+            }
+        };
+        let gathered = &self.run.faces[..self.run.len];
+        if POLYGONS {
+            // Its faces at this vertex stand side by side. A run beyond a hub's is cut short: its
+            // cost so far is more than another's.
+            let mut last = u32::MAX;
+            let mut left = HUB;
+            for &face in gathered {
+                let polygon = self.polygons.of_face[face as usize];
+                if std::mem::replace(&mut last, polygon) != polygon {
+                    let faces = self.polygons.faces(face);
+                    let taken = index32(faces.len()).min(left);
+                    (faces.start..faces.start + taken).for_each(&mut run);
+                    left -= taken;
+                }
+            }
+        } else {
+            for &face in gathered {
+                run(face);
             }
         }
         let vertex = vertices[focus as usize];

@@ -49,6 +49,12 @@ impl Buffer {
 }
 
 fn by_definition(mesh: &Mesh, algorithm: &KCacheReorder) -> (Vec<u32>, Vec<u8>) {
+    let each: Vec<u32> = (0..=index32(mesh.face_count())).collect();
+    of_polygons(mesh, &each, algorithm)
+}
+
+/// The same where faces `starts[i]..starts[i + 1]` are drawn together.
+fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u32>, Vec<u8>) {
     let size = algorithm.cache.size();
     let costs = Costs::new(algorithm.k1, algorithm.k2, algorithm.k3, size);
     let faces = mesh.faces();
@@ -68,9 +74,17 @@ fn by_definition(mesh: &Mesh, algorithm: &KCacheReorder) -> (Vec<u32>, Vec<u8>) 
                 .collect()
         };
         let live = |v: u32| index32(live_faces(v).len());
+        // What drawing `v` draws: its live faces and those of their polygons, each once.
+        let to_draw = |v: u32| -> Vec<usize> {
+            let polygon = |&f: &usize| starts.partition_point(|&start| start as usize <= f) - 1;
+            let mut polygons: Vec<usize> = live_faces(v).iter().map(polygon).collect();
+            polygons.dedup();
+            let faces = |&p: &usize| starts[p] as usize..starts[p + 1] as usize;
+            polygons.iter().flat_map(faces).collect()
+        };
         let cost = |v: u32| {
             let mut run = buffer.clone();
-            for face in live_faces(v) {
+            for face in to_draw(v) {
                 run.draw(faces[face], algorithm.keep_corners);
             }
             // The age may pass the size: count it from the last push of `v`.
@@ -114,7 +128,7 @@ fn by_definition(mesh: &Mesh, algorithm: &KCacheReorder) -> (Vec<u32>, Vec<u8>) 
         let Some(focus) = focus else {
             return (order, rotations);
         };
-        for face in live_faces(focus) {
+        for face in to_draw(focus) {
             drawn[face] = true;
             order.push(index32(face));
             rotations.push(buffer.draw(faces[face], algorithm.keep_corners));
@@ -164,6 +178,64 @@ fn the_fast_mode_is_the_greedy_that_it_claims_to_be() {
                 assert_eq!(order.new_to_old(), faces, "{algorithm:?}, closed: {closed}");
                 assert_eq!(order.rotations(), rotations, "{algorithm:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn polygons_are_ordered_by_the_same_rules() {
+    for (seed, size) in [3, 4, 6, 8, 12, 16, 32].into_iter().enumerate() {
+        // Quads, some joined to strips of more, a few single faces.
+        let (width, height) = (9, 8);
+        let numbers = random(width * height, seed as u64);
+        let vertex = |x: usize, y: usize| numbers.new_to_old()[y * width + x];
+        let mut polygons = Vec::new();
+        for i in 0..(width - 1) * (height - 1) {
+            let (x, y) = (i % (width - 1), i / (width - 1));
+            let [a, b] = [vertex(x, y), vertex(x + 1, y)];
+            let [c, d] = [vertex(x, y + 1), vertex(x + 1, y + 1)];
+            match (i + seed) % 7 {
+                0 => polygons.extend([vec![[a, b, d]], vec![[a, d, c]]]),
+                1 if x + 2 < width => {
+                    let e = vertex(x + 2, y);
+                    polygons.push(vec![[a, b, e], [a, e, d], [a, d, c]]);
+                }
+                _ => polygons.push(vec![[a, b, d], [a, d, c]]),
+            }
+        }
+        let shuffled = random(polygons.len(), seed as u64 + 9);
+        let polygons: Vec<_> = shuffled
+            .new_to_old()
+            .iter()
+            .map(|&p| &polygons[p as usize])
+            .collect();
+        let mut starts = vec![0];
+        for polygon in &polygons {
+            starts.push(starts[starts.len() - 1] + index32(polygon.len()));
+        }
+        let faces: Vec<_> = polygons.into_iter().flatten().copied().collect();
+        let mesh = Mesh::connectivity_only(width * height, faces).unwrap();
+        let algorithm = KCacheReorder {
+            cache: CacheModel::fifo(size),
+            keep_corners: true,
+            ..Default::default()
+        };
+        let order = algorithm.polygon_order(&mesh, &starts);
+        let (faces, rotations) = of_polygons(&mesh, &starts, &algorithm);
+        assert_eq!(order.new_to_old(), faces, "size {size}");
+        assert!(rotations.iter().all(|&r| r == 0) && order.rotations().iter().all(|&r| r == 0));
+        for other in [CacheModel::controllable(size), CacheModel::fifo(size)] {
+            let algorithm = KCacheReorder {
+                cache: other,
+                mode: super::Mode::Faithful,
+                ..Default::default()
+            };
+            let order = algorithm.polygon_order(&mesh, &starts);
+            let polygon = |face: &u32| starts.partition_point(|start| start <= face);
+            let runs = order
+                .new_to_old()
+                .chunk_by(|a, b| a + 1 == *b && polygon(a) == polygon(b));
+            assert_eq!(runs.count(), starts.len() - 1, "polygons stay together");
         }
     }
 }
