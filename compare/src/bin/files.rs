@@ -1,6 +1,6 @@
 //! How fast files are read, changed and written, and how much memory that takes.
 //!
-//!   cargo run --release --bin files [SIDE]
+//!   cargo run --release --bin files [SIDE [FORMAT]]
 //!
 //! Makes a grid of SIDE × SIDE vertices (default 1000), its faces in rows, as GLB, binary PLY, binary
 //! STL, OBJ and OFF, and puts each in the order that K-Cache-Reorder finds, on one thread. Prints
@@ -29,7 +29,7 @@ fn main() -> ExitCode {
         .nth(1)
         .map_or(Ok(1000), |side| side.parse());
     let Ok(side) = side else {
-        eprintln!("usage: files [SIDE]");
+        eprintln!("usage: files [SIDE [FORMAT]]");
         return ExitCode::from(2);
     };
     let folder = std::env::temp_dir().join(format!("meshweft-files-{}", std::process::id()));
@@ -59,7 +59,8 @@ fn measure(side: u32, folder: &Path) -> Result<(), String> {
         ("off", grid.off()),
     ] {
         let path = folder.join(format!("grid.{name}"));
-        if Format::of_path(&path).is_none() {
+        let only = std::env::args().nth(2);
+        if Format::of_path(&path).is_none() || only.is_some_and(|only| only != name) {
             continue;
         }
         std::fs::write(&path, &bytes).map_err(|error| error.to_string())?;
@@ -120,9 +121,9 @@ fn orders(document: &Document) -> (FaceOrder, Option<VertexOrder>) {
         ..Default::default()
     };
     let faces = entry.record_order(|mesh, polygons| match polygons {
-            Some(starts) => algorithm.polygon_order(mesh, starts),
-            None => algorithm.face_order(mesh),
-        });
+        Some(starts) => algorithm.polygon_order(mesh, starts),
+        None => algorithm.face_order(mesh),
+    });
     let vertices = entry.vertices_movable.then(|| {
         let mesh = entry.mesh.with_face_order(&faces);
         vertex_fetch(mesh.faces(), mesh.vertex_count())

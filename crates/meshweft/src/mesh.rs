@@ -134,6 +134,15 @@ impl Mesh {
         }
     }
 
+    /// As [`with_vertex_order`](Self::with_vertex_order), the faces renumbered where they are.
+    pub(crate) fn into_vertex_order(mut self, order: &VertexOrder) -> Self {
+        if !self.positions.is_empty() {
+            self.positions = order.permutation().apply(&self.positions);
+        }
+        order.renumber_in_place(&mut self.faces);
+        self
+    }
+
     /// The same mesh with its vertices stored in another order and the faces renumbered to match.
     ///
     /// # Panics

@@ -363,11 +363,17 @@ impl VertexOrder {
     /// If a face names a vertex that the order does not have.
     #[must_use]
     pub fn renumber(&self, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
-        let old_to_new = self.permutation.old_to_new();
+        let mut faces = faces.to_vec();
+        self.renumber_in_place(&mut faces);
         faces
-            .iter()
-            .map(|face| face.map(|vertex| old_to_new[vertex as usize]))
-            .collect()
+    }
+
+    /// As [`renumber`](Self::renumber), without a copy of the faces.
+    pub(crate) fn renumber_in_place(&self, faces: &mut [[u32; 3]]) {
+        let old_to_new = self.permutation.old_to_new();
+        for face in faces {
+            *face = face.map(|vertex| old_to_new[vertex as usize]);
+        }
     }
 }
 

@@ -205,7 +205,12 @@ impl MeshEntry {
     /// # Panics
     /// If the order is of another number of vertices.
     pub fn apply_vertices(&mut self, order: &VertexOrder) {
-        self.mesh = self.mesh.with_vertex_order(order);
+        assert_eq!(
+            order.len(),
+            self.mesh.vertex_count(),
+            "vertex order of another length"
+        );
+        self.mesh = std::mem::take(&mut self.mesh).into_vertex_order(order);
     }
 }
 

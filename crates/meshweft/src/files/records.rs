@@ -63,6 +63,32 @@ impl Spans {
         Ok(())
     }
 
+    /// Adds `count` records of `length` bytes, side by side from `start` on.
+    ///
+    /// # Errors
+    /// A record of 4 GiB or more.
+    pub(super) fn push_even(
+        &mut self,
+        start: usize,
+        length: usize,
+        count: usize,
+    ) -> Result<(), FileErrorKind> {
+        let Some(more) = count.checked_sub(1) else {
+            return Ok(());
+        };
+        self.push(start..start + length)?;
+        if self.even_length() == Some(length) {
+            self.count += more;
+            return Ok(());
+        }
+        (1..count).try_for_each(|i| self.push(start + i * length..start + (i + 1) * length))
+    }
+
+    /// The length of every record, if all have one and stand side by side.
+    pub(super) fn even_length(&self) -> Option<usize> {
+        self.each.is_none().then_some(self.stride)
+    }
+
     #[inline]
     pub(super) fn span(&self, record: usize) -> Range<usize> {
         let (start, length) = match &self.each {
@@ -101,21 +127,23 @@ impl FaceRecords {
         self.faces.reserve(count);
     }
 
-    /// Adds a triangle.
+    /// Counts triangles that were added to `faces` past it.
     ///
     /// # Errors
     /// As [`push`](Self::push).
-    #[inline]
-    pub(super) fn push_triangle(
-        &mut self,
-        corners: [u32; 3],
-        limits: &Limits,
-    ) -> Result<(), FileErrorKind> {
-        if self.polygons.is_some() || self.count >= limits.faces.min(MAX_FACES) {
-            return self.push(&corners, limits);
+    pub(super) fn count_triangles(&mut self, limits: &Limits) -> Result<(), FileErrorKind> {
+        let limit = limits.faces.min(MAX_FACES);
+        if self.faces.len() > limit {
+            return Err(over_limit("faces", self.faces.len(), limit));
         }
-        self.faces.push(corners);
-        self.count += 1;
+        match &mut self.polygons {
+            Some(starts) => {
+                let counted = starts.last().copied().unwrap_or(0);
+                starts.extend(counted + 1..=index32(self.faces.len()));
+                self.count = starts.len() - 1;
+            }
+            None => self.count = self.faces.len(),
+        }
         Ok(())
     }
 
@@ -125,16 +153,15 @@ impl FaceRecords {
     /// More faces, or more records, than the limit.
     #[inline]
     pub(super) fn push(&mut self, corners: &[u32], limits: &Limits) -> Result<(), FileErrorKind> {
-        if let &[a, b, c] = corners
-            && self.polygons.is_none()
-            && self.count < limits.faces.min(MAX_FACES)
-        {
-            return self.push_triangle([a, b, c], limits);
-        }
         let limit = limits.faces.min(MAX_FACES);
         let added = corners.len().saturating_sub(2);
         if self.count >= limit || self.faces.len() + added > limit {
             return Err(over_limit("faces", self.faces.len() + added.max(1), limit));
+        }
+        if let (&[a, b, c], None) = (corners, &self.polygons) {
+            self.faces.push([a, b, c]);
+            self.count += 1;
+            return Ok(());
         }
         if added != 1 && self.polygons.is_none() {
             self.polygons = Some((0..=index32(self.count)).collect());
@@ -209,6 +236,28 @@ mod tests {
         assert!(spans.each.is_some());
         let all: Vec<Range<usize>> = (0..spans.len()).map(|i| spans.span(i)).collect();
         assert_eq!(all, [10..13, 13..16, 16..19, 20..23]);
+    }
+
+    #[test]
+    fn records_pushed_at_once_are_the_same() {
+        for (before, after) in [(None, None), (Some(3..7), None), (None, Some(31..40))] {
+            let (mut one, mut all) = (Spans::new(), Spans::new());
+            for spans in [&mut one, &mut all] {
+                before
+                    .iter()
+                    .for_each(|span| spans.push(span.clone()).unwrap());
+            }
+            (0..5).for_each(|i| one.push(10 + i * 4..14 + i * 4).unwrap());
+            all.push_even(10, 4, 5).unwrap();
+            all.push_even(10, 4, 0).unwrap();
+            for spans in [&mut one, &mut all] {
+                after
+                    .iter()
+                    .for_each(|span| spans.push(span.clone()).unwrap());
+            }
+            let spans = |spans: &Spans| (0..spans.len()).map(|i| spans.span(i)).collect::<Vec<_>>();
+            assert_eq!(spans(&one), spans(&all));
+        }
     }
 
     #[test]

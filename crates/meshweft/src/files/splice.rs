@@ -178,42 +178,40 @@ impl<N: Notation> RecordFile<N> {
         let mut layers = Vec::new();
         if !records.is_empty() || !vertices.is_empty() {
             let mut scratch = Vec::new();
-            layers.push(Layer::new(&self.faces, move |slot, out| {
-                let number = record_in(records, slot);
-                let rotation = usize::from(rotations.get(slot).copied().unwrap_or(0));
-                let change = Change {
-                    rotation,
-                    old_to_new,
-                };
-                let record = &source[self.faces.span(number)];
-                match change.is_nothing() {
-                    true => out.extend_from_slice(record),
-                    false => self
-                        .notation
-                        .write_face(number, record, change, &mut scratch, out),
+            layers.push(Layer::new(&self.faces, move |slots, out| {
+                for slot in slots {
+                    let number = record_in(records, slot);
+                    let rotation = usize::from(rotations.get(slot).copied().unwrap_or(0));
+                    let change = Change {
+                        rotation,
+                        old_to_new,
+                    };
+                    let record = &source[self.faces.span(number)];
+                    match change.is_nothing() {
+                        true => out.extend_from_slice(record),
+                        false => {
+                            let notation = &self.notation;
+                            notation.write_face(number, record, change, &mut scratch, out);
+                        }
+                    }
                 }
             }));
             let companions = self.companions.iter();
-            layers.extend(companions.map(|spans| {
-                Layer::new(spans, move |slot, out| {
-                    out.extend_from_slice(&source[spans.span(record_in(records, slot))]);
-                })
-            }));
+            layers.extend(companions.map(|spans| Layer::moved(spans, source, records)));
         }
         if !vertices.is_empty() {
-            layers.push(Layer::new(&self.vertices, move |slot, out| {
-                let span = self.vertices.span(record_in(vertices, slot));
-                out.extend_from_slice(&source[span]);
-            }));
+            layers.push(Layer::moved(&self.vertices, source, vertices));
             let mut scratch = Vec::new();
-            layers.push(Layer::new(&self.lines, move |slot, out| {
-                let line = &source[self.lines.span(slot)];
-                let change = Change {
-                    rotation: 0,
-                    old_to_new,
-                };
-                self.notation
-                    .write_line(slot, line, change, &mut scratch, out);
+            layers.push(Layer::new(&self.lines, move |slots, out| {
+                for slot in slots {
+                    let line = &source[self.lines.span(slot)];
+                    let change = Change {
+                        rotation: 0,
+                        old_to_new,
+                    };
+                    self.notation
+                        .write_line(slot, line, change, &mut scratch, out);
+                }
             }));
         }
         spliced(source, layers, sink)
@@ -243,22 +241,40 @@ impl<N: Notation> Content for RecordFile<N> {
     }
 }
 
-/// Appends what goes into a slot, given by its number.
-type WriteSlot<'a> = dyn FnMut(usize, &mut Vec<u8>) + 'a;
+/// Appends what goes into slots that stand side by side, given by their numbers.
+type WriteSlots<'a> = dyn FnMut(Range<usize>, &mut Vec<u8>) + 'a;
 
 /// The slots of one kind of record, and what goes into each.
 struct Layer<'a> {
     slots: &'a Spans,
     next: usize,
-    write: Box<WriteSlot<'a>>,
+    write: Box<WriteSlots<'a>>,
 }
 
 impl<'a> Layer<'a> {
-    fn new(slots: &'a Spans, write: impl FnMut(usize, &mut Vec<u8>) + 'a) -> Self {
+    fn new(slots: &'a Spans, write: impl FnMut(Range<usize>, &mut Vec<u8>) + 'a) -> Self {
         Self {
             slots,
             next: 0,
             write: Box::new(write),
+        }
+    }
+
+    /// Each slot gets the record of `source` that `order` says.
+    fn moved(slots: &'a Spans, source: &'a [u8], order: &'a [u32]) -> Self {
+        Self::new(slots, move |numbers, out| {
+            for slot in numbers {
+                out.extend_from_slice(&source[slots.span(record_in(order, slot))]);
+            }
+        })
+    }
+
+    /// How many slots from the next one on can be filled at once.
+    fn batch(&self) -> usize {
+        let left = self.slots.len() - self.next;
+        match self.slots.even_length() {
+            Some(length) => left.min(PIECE / length.max(1)).max(1),
+            None => 1,
         }
     }
 
@@ -303,9 +319,10 @@ fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>, sink: &mut dyn io::Write) 
             } else {
                 out.extend_from_slice(&source[copied..slot.start]);
             }
-            (layer.write)(layer.next, &mut out);
-            copied = slot.end;
-            layer.next += 1;
+            let batch = layer.next..layer.next + layer.batch();
+            layer.next = batch.end;
+            copied = layer.slots.span(batch.end - 1).end;
+            (layer.write)(batch, &mut out);
             if out.len() >= PIECE {
                 sink.write_all(&out)?;
                 out.clear();
@@ -347,9 +364,9 @@ mod tests {
         small.push(6..8).unwrap();
         large.push(9..10).unwrap();
         let layers = vec![
-            Layer::new(&small, |slot, out| out.push([b'c', b'a'][slot])),
-            Layer::new(&large, |slot, out| {
-                out.extend_from_slice([b"DD", b"BB"][slot])
+            Layer::new(&small, |slots, out| out.extend_from_slice(&b"ca"[slots])),
+            Layer::new(&large, |slots, out| {
+                slots.for_each(|slot| out.extend_from_slice([b"DD", b"BB"][slot]))
             }),
         ];
         let mut out = Vec::new();

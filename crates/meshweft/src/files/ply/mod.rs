@@ -330,11 +330,8 @@ fn read_vertices<R: Rows>(rows: &mut R, element: &Element, body: &mut Body) -> R
     };
     if let Some((start, positions)) = rows.positions(element, [x, y, z]) {
         let length = (rows.at() - start) / element.count.max(1);
-        for row in 0..element.count {
-            let at = start + row * length;
-            let pushed = body.vertices.push(at..at + length);
-            pushed.map_err(|kind| Fault { at, kind })?;
-        }
+        let pushed = body.vertices.push_even(start, length, element.count);
+        pushed.map_err(|kind| Fault { at: start, kind })?;
         body.positions = positions;
         return Ok(());
     }
@@ -378,21 +375,34 @@ fn read_faces<R: Rows>(
     let layout = TriangleLayout::of(element, list);
     let mut corners = Vec::new();
     body.records.reserve(rows.at_most(element));
-    for number in 0..element.count {
-        let row = Row { element, number };
+    let mut number = 0;
+    while number < element.count {
         let start = rows.start_row();
-        if let Some((span, triangle)) = layout.as_ref().and_then(|layout| rows.triangle(layout)) {
-            if let Some(corner) = triangle.iter().position(|&v| v as usize >= vertex_count) {
-                let index = i64::from(triangle[corner]);
+        if let Some(layout) = &layout {
+            let faces = &mut body.records.faces;
+            let first = faces.len();
+            let (read, length) = rows.triangles(layout, element.count - number, faces);
+            let bad = |face: &[u32; 3]| face.iter().position(|&v| v as usize >= vertex_count);
+            let bad = faces[first..]
+                .iter()
+                .enumerate()
+                .find_map(|(i, f)| Some((i, bad(f)?)));
+            if let Some((face, corner)) = bad {
+                let index = i64::from(faces[first + face][corner]);
                 let last = vertex_count.checked_sub(1);
-                let kind = past_the_last_vertex("face", number, corner, index, last);
-                return Err(Fault { at: start, kind });
+                let kind = past_the_last_vertex("face", number + face, corner, index, last);
+                let at = start + face * length;
+                return Err(Fault { at, kind });
             }
-            let pushed = body.records.push_triangle(triangle, limits);
-            let pushed = pushed.and_then(|()| body.faces.push(span));
+            let pushed = body.records.count_triangles(limits);
+            let pushed = pushed.and_then(|()| body.faces.push_even(start, length, read));
             pushed.map_err(|kind| Fault { at: start, kind })?;
-            continue;
+            number += read;
+            if read > 0 {
+                continue;
+            }
         }
+        let row = Row { element, number };
         corners.clear();
         for (property_number, property) in element.properties.iter().enumerate() {
             match property.kind {
@@ -421,6 +431,7 @@ fn read_faces<R: Rows>(
         let pushed = body.records.push(&corners, limits);
         let pushed = pushed.and_then(|()| body.faces.push(start..end));
         pushed.map_err(|kind| Fault { at: start, kind })?;
+        number += 1;
     }
     Ok(())
 }

@@ -34,6 +34,9 @@ impl PlyNotation {
 
     fn find_first_corner(&self) -> Option<(usize, Scalar)> {
         let (element, list) = self.face.as_ref()?;
+        if self.encoding == Encoding::Ascii {
+            return None;
+        }
         let mut offset = 0;
         for property in &element.properties[..*list] {
             match property.kind {
@@ -118,6 +121,24 @@ impl PlyNotation {
     }
 }
 
+/// The usual row of a binary file, a triangle and nothing else, with its corners changed.
+#[inline]
+fn triangle_row<const BIG: bool>(row: &[u8; 13], change: Change<'_>) -> [u8; 13] {
+    let [count, corners @ ..] = row;
+    let (corners, _) = corners.as_chunks::<4>();
+    let mut changed = [*count; 13];
+    let (slots, _) = changed[1..].as_chunks_mut::<4>();
+    for (corner, slot) in slots.iter_mut().enumerate() {
+        let bytes = corners[change.turned(corner, 3)];
+        *slot = match (change.old_to_new.is_empty(), BIG) {
+            (true, _) => bytes,
+            (_, true) => change.old_to_new[u32::from_be_bytes(bytes) as usize].to_be_bytes(),
+            (_, false) => change.old_to_new[u32::from_le_bytes(bytes) as usize].to_le_bytes(),
+        };
+    }
+    changed
+}
+
 /// An index of up to four bytes; negative ones were refused when the file was read.
 #[inline]
 fn unsigned<const BIG: bool>(bytes: &[u8]) -> usize {
@@ -137,9 +158,18 @@ impl Notation for PlyNotation {
         scratch: &mut Vec<Range<usize>>,
         out: &mut Vec<u8>,
     ) {
+        if let (Some((1, item)), Ok(row)) = (self.first_corner, <&[u8; 13]>::try_from(record))
+            && (item.size(), row[0]) == (4, 3)
+        {
+            out.extend_from_slice(&match self.encoding {
+                Encoding::BigEndian => triangle_row::<true>(row, change),
+                _ => triangle_row::<false>(row, change),
+            });
+            return;
+        }
         let at_once = self.first_corner.and_then(|(first, item)| {
             let count = usize::from(*record.get(first - 1)?);
-            (self.encoding != Encoding::Ascii).then_some((first, count, item))
+            Some((first, count, item))
         });
         let corners = match self.encoding {
             _ if at_once.is_some() => at_once,

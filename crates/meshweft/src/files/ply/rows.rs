@@ -1,7 +1,5 @@
 //! Reading the rows of a PLY file, ascii or binary, value by value.
 
-use std::ops::Range;
-
 use super::header::{Element, Kind, Property, Scalar};
 use crate::files::error::FileErrorKind;
 use crate::files::text::{Tokens, coordinate, is_blank, is_line_end, shown, whole_number};
@@ -62,11 +60,16 @@ pub(super) trait Rows {
         None
     }
 
-    /// The row with its corners, if it is a triangle of the layout and is all there. A faster way,
-    /// that leaves whatever is unusual to the other.
-    #[inline]
-    fn triangle(&mut self, _layout: &TriangleLayout) -> Option<(Range<usize>, [u32; 3])> {
-        None
+    /// Reads rows, at most `count`, as long as they are triangles of the layout and all there, and
+    /// adds their corners to `faces`; how many, and how long each is. A faster way, that leaves
+    /// whatever is unusual to the other.
+    fn triangles(
+        &mut self,
+        _layout: &TriangleLayout,
+        _count: usize,
+        _faces: &mut Vec<[u32; 3]>,
+    ) -> (usize, usize) {
+        (0, 0)
     }
 }
 
@@ -318,26 +321,38 @@ impl<const BIG: bool> Rows for Binary<'_, BIG> {
         Some((start, rows.map(position).collect()))
     }
 
-    #[inline]
-    fn triangle(&mut self, layout: &TriangleLayout) -> Option<(Range<usize>, [u32; 3])> {
-        let start = self.at;
-        let row = self
-            .source
-            .get(start..)?
-            .get(..layout.before + 13 + layout.after)?;
-        let list = row[layout.before..].first_chunk::<13>()?;
-        let (&3, corners) = list.split_first()? else {
-            return None;
+    fn triangles(
+        &mut self,
+        layout: &TriangleLayout,
+        count: usize,
+        faces: &mut Vec<[u32; 3]>,
+    ) -> (usize, usize) {
+        let length = layout.before + 13 + layout.after;
+        let before = faces.len();
+        // A negative corner is told apart by its first bit.
+        let largest = if layout.is_signed {
+            u32::MAX >> 1
+        } else {
+            u32::MAX
         };
-        let corners = corners.as_chunks::<4>().0.first_chunk::<3>()?;
-        let corners = corners.map(|corner| match BIG {
-            true => u32::from_be_bytes(corner),
-            false => u32::from_le_bytes(corner),
-        });
-        if layout.is_signed && corners.iter().any(|&corner| corner > i32::MAX as u32) {
-            return None;
+        for row in self.source[self.at..].chunks_exact(length).take(count) {
+            let Some([3, corners @ ..]) = row[layout.before..].first_chunk::<13>() else {
+                break;
+            };
+            let [a, b, c] = [0, 4, 8].map(|i| {
+                let bytes = [corners[i], corners[i + 1], corners[i + 2], corners[i + 3]];
+                match BIG {
+                    true => u32::from_be_bytes(bytes),
+                    false => u32::from_le_bytes(bytes),
+                }
+            });
+            if a.max(b).max(c) > largest {
+                break;
+            }
+            faces.push([a, b, c]);
         }
-        self.at = start + row.len();
-        Some((start..self.at, corners))
+        let read = faces.len() - before;
+        self.at += read * length;
+        (read, length)
     }
 }
