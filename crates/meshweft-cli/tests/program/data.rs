@@ -7,6 +7,9 @@ use std::time::{Duration, Instant};
 
 use crate::{Folder, data_folder};
 
+/// The endings of the mesh formats that are no glTF.
+const MESHES: &[&str] = &[".obj", ".ply", ".off"];
+
 /// The files below a folder with one of these endings (`.gz` aside), sorted.
 fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
@@ -32,7 +35,7 @@ fn every_real_mesh_keeps_its_triangles_and_gets_no_worse() {
     let Some(data) = data_folder("real meshes") else {
         return;
     };
-    let mut paths = files(&data.join("meshes"), &[".obj", ".ply", ".off"]);
+    let mut paths = files(&data.join("meshes"), MESHES);
     paths.extend(files(&data.join("gltf"), &[".glb", ".gltf"]));
     // The dragon alone would take most of the time in an unoptimised build.
     paths.retain(|path| !path.ends_with("dragon.ply.gz"));
@@ -81,6 +84,59 @@ fn every_real_mesh_keeps_its_triangles_and_gets_no_worse() {
         paths.len()
     );
     assert!(improved > 50);
+}
+
+/// Flags that change what is done, each of which must keep what has to be kept.
+const FLAGS: [&[&str]; 9] = [
+    &["--cache", "controllable:16"],
+    &["--mode", "faithful"],
+    &["--keep-corners"],
+    &["--keep-vertex-order"],
+    &["--cache", "fifo:32", "--allow-worse"],
+    &["--k1", "0.7", "--k2", "1.5", "--k3", "0.2"],
+    &["--across-groups"],
+    &["--assume-order-safe", "EXT_mesh_features"],
+    &[
+        "--cache",
+        "controllable:7",
+        "--mode",
+        "faithful",
+        "--keep-vertex-order",
+    ],
+];
+
+#[test]
+fn every_flag_keeps_the_triangles_on_any_number_of_threads() {
+    let Some(data) = data_folder("flags on real meshes") else {
+        return;
+    };
+    let mut paths = files(&data.join("meshes"), MESHES);
+    paths.extend(files(&data.join("gltf"), &[".glb", ".gltf"]));
+    // Each file with two of the sets, the larger ones left to the other test.
+    paths.retain(|path| fs::metadata(path).unwrap().len() < 500_000);
+    let folder = Folder::new("flags");
+    for (i, input) in paths.iter().enumerate() {
+        let name = input.file_name().unwrap().to_str().unwrap();
+        let name = name.strip_suffix(".gz").unwrap_or(name);
+        let input = input.to_str().unwrap();
+        for flags in [FLAGS[i % FLAGS.len()], FLAGS[(i * 5 + 2) % FLAGS.len()]] {
+            for threads in ["1", "2"] {
+                let output = format!("{threads}/{name}");
+                let mut arguments = vec!["optimize", input, "-o", &output, "--threads", threads];
+                arguments.extend(flags);
+                let run = folder.run(&arguments);
+                assert_eq!(run.code(), 0, "{name} {flags:?}: {}", run.err());
+            }
+            let [one, two] = ["1", "2"].map(|threads| format!("{threads}/{name}"));
+            assert!(folder.read(&one) == folder.read(&two), "{name} {flags:?}");
+            let compared = folder.run(&["compare", input, &one, "--json"]).json();
+            assert_eq!(compared["same_triangles"], true, "{name} {flags:?}");
+        }
+    }
+    eprintln!(
+        "{} real files with two sets of flags each, none skipped",
+        paths.len()
+    );
 }
 
 #[test]

@@ -346,3 +346,52 @@ fn a_buffer_that_two_files_read_stays() {
     assert!(folder.read("data.bin") == data);
     assert!(folder.read("own.bin") != data);
 }
+
+#[test]
+fn the_unknown_is_kept_refused_or_vouched_for() {
+    let folder = Folder::new("unknown");
+    folder.write("a.obj", grid_obj() + "curv2 1 2 3\n");
+    let run = |flags: &[&str]| {
+        let mut arguments = vec!["optimize", "a.obj", "-o", "out.obj", "--json"];
+        arguments.extend(flags);
+        folder.run(&arguments)
+    };
+    let kept = run(&[]).json();
+    assert_eq!(kept["meshes"][0]["vertices_moved"], false);
+    let refused = run(&["--strict"]);
+    assert_eq!(refused.code(), 1);
+    assert!(
+        refused.err().contains("the statement curv2 is not known"),
+        "{}",
+        refused.err()
+    );
+    let vouched = run(&["--strict", "--assume-order-safe", "curv2"]).json();
+    assert_eq!(vouched["meshes"][0]["vertices_moved"], true);
+}
+
+#[test]
+fn groups_are_crossed_only_if_asked() {
+    let folder = Folder::new("groups");
+    // Every face in a group of its own: within them nothing can move.
+    let grouped = grid_obj().replace("\nf ", "\ng part\nf ");
+    folder.write("a.obj", grouped);
+    let acmr = |flags: &[&str]| {
+        let mut arguments = vec!["optimize", "a.obj", "-o", "out.obj", "--json"];
+        arguments.extend(flags);
+        let report = folder.run(&arguments).json();
+        report["total"]["acmr"]["after"]["fifo:12"]
+            .as_f64()
+            .unwrap()
+    };
+    let within = acmr(&[]);
+    let across = acmr(&["--across-groups"]);
+    assert!(across < 0.7 && within > 1.0, "{within} {across}");
+    let compared = folder
+        .run(&["compare", "a.obj", "out.obj", "--json"])
+        .json();
+    assert_eq!(compared["same_triangles"], true);
+    // A material is never crossed.
+    let painted = grid_obj().replace("\nf ", "\nusemtl x\nf ");
+    folder.write("a.obj", painted);
+    assert!(acmr(&["--across-groups"]) > 1.0);
+}
