@@ -68,6 +68,7 @@ impl Document {
             Format::Obj => super::obj::read(bytes, limits),
             Format::Ply => super::ply::read(bytes, limits),
             Format::Off => super::off::read(bytes, limits),
+            Format::Stl => super::stl::read(bytes, limits),
         };
         let (content, notes) = read.map_err(|problem| problem.in_file(path, Some(format)))?;
         Ok(Self {

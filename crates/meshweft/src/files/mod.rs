@@ -13,6 +13,7 @@ mod off;
 mod ply;
 mod records;
 mod splice;
+mod stl;
 mod text;
 
 use std::fmt;
@@ -42,6 +43,8 @@ pub enum Format {
     Ply,
     /// Object File Format, ascii.
     Off,
+    /// Stereolithography, binary or ascii.
+    Stl,
 }
 
 impl Format {
@@ -56,6 +59,7 @@ impl Format {
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
             "off" => Some(Self::Off),
+            "stl" => Some(Self::Stl),
             _ => None,
         }
     }
@@ -69,6 +73,7 @@ impl fmt::Display for Format {
             Self::Obj => "OBJ",
             Self::Ply => "PLY",
             Self::Off => "OFF",
+            Self::Stl => "STL",
         })
     }
 }
