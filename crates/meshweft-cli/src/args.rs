@@ -50,7 +50,7 @@ pub(crate) enum Verb {
 
 #[derive(Debug, Args)]
 pub(crate) struct Optimize {
-    /// The files: .gltf, .glb, .obj, .ply, .off, .stl, also with .gz behind
+    /// The files: .gltf, .glb, .obj, .ply, .off, .stl, .wrl, .vrml, also with .gz behind
     #[arg(required = true, value_name = "IN")]
     pub(crate) inputs: Vec<PathBuf>,
     /// Where to write: a file, or with several inputs a folder

@@ -32,7 +32,10 @@ fn every_real_mesh_keeps_its_triangles_and_gets_no_worse() {
     let Some(data) = data_folder("real meshes") else {
         return;
     };
-    let mut paths = files(&data.join("meshes"), &[".obj", ".ply", ".off", ".stl"]);
+    let mut paths = files(
+        &data.join("meshes"),
+        &[".obj", ".ply", ".off", ".stl", ".wrl"],
+    );
     paths.extend(files(&data.join("gltf"), &[".glb", ".gltf"]));
     // The dragon alone would take most of the time in an unoptimised build.
     paths.retain(|path| !path.ends_with("dragon.ply.gz"));

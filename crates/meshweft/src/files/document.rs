@@ -69,6 +69,7 @@ impl Document {
             Format::Ply => super::ply::read(bytes, limits),
             Format::Off => super::off::read(bytes, limits),
             Format::Stl => super::stl::read(bytes, limits),
+            Format::Vrml => super::vrml::read(bytes, limits),
         };
         let (content, notes) = read.map_err(|problem| problem.in_file(path, Some(format)))?;
         Ok(Self {

@@ -130,8 +130,8 @@ impl fmt::Display for FileErrorKind {
         match self {
             Self::Io(error) => write!(f, "{error}"),
             Self::UnknownFormat => f.write_str(
-                "unknown format: files that end in .gltf, .glb, .obj, .ply, .off or .stl are \
-                 read (also with .gz behind)",
+                "unknown format: files that end in .gltf, .glb, .obj, .ply, .off, .stl, .wrl \
+                 or .vrml are read (also with .gz behind)",
             ),
             Self::Truncated { what } => write!(
                 f,

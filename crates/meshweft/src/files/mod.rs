@@ -15,6 +15,7 @@ mod records;
 mod splice;
 mod stl;
 mod text;
+mod vrml;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -45,6 +46,8 @@ pub enum Format {
     Off,
     /// Stereolithography, binary or ascii.
     Stl,
+    /// VRML97, also called VRML 2.0.
+    Vrml,
 }
 
 impl Format {
@@ -60,6 +63,7 @@ impl Format {
             "ply" => Some(Self::Ply),
             "off" => Some(Self::Off),
             "stl" => Some(Self::Stl),
+            "wrl" | "vrml" => Some(Self::Vrml),
             _ => None,
         }
     }
@@ -74,6 +78,7 @@ impl fmt::Display for Format {
             Self::Ply => "PLY",
             Self::Off => "OFF",
             Self::Stl => "STL",
+            Self::Vrml => "VRML",
         })
     }
 }

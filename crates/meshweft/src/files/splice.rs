@@ -25,7 +25,7 @@ pub(super) struct Change<'a> {
 }
 
 impl Change<'_> {
-    fn is_nothing(&self) -> bool {
+    pub(super) fn is_nothing(&self) -> bool {
         self.rotation == 0 && self.old_to_new.is_empty()
     }
 
@@ -122,13 +122,13 @@ pub(super) struct RecordFile<N> {
 /// All orders that were applied, as one; empty where nothing was moved or turned.
 #[derive(Debug, Default)]
 pub(super) struct Orders {
-    records: Vec<u32>,
-    rotations: Vec<u8>,
-    vertices: Vec<u32>,
+    pub(super) records: Vec<u32>,
+    pub(super) rotations: Vec<u8>,
+    pub(super) vertices: Vec<u32>,
 }
 
 impl Orders {
-    fn add_faces(&mut self, order: &FaceOrder) {
+    pub(super) fn add_faces(&mut self, order: &FaceOrder) {
         if order.is_identity() {
             return;
         }
@@ -140,10 +140,24 @@ impl Orders {
         self.records = composed(&self.records, order.new_to_old());
     }
 
-    fn add_vertices(&mut self, order: &VertexOrder) {
+    pub(super) fn add_vertices(&mut self, order: &VertexOrder) {
         if !order.is_identity() {
             self.vertices = composed(&self.vertices, order.new_to_old());
         }
+    }
+
+    /// The new number of each vertex; empty if they keep theirs.
+    pub(super) fn old_to_new(&self) -> Vec<u32> {
+        let mut old_to_new = vec![0; self.vertices.len()];
+        for (new, &old) in self.vertices.iter().enumerate() {
+            old_to_new[old as usize] = index32(new);
+        }
+        old_to_new
+    }
+
+    /// How far the corners of the record that goes to `slot` are turned.
+    pub(super) fn rotation(&self, slot: usize) -> usize {
+        usize::from(self.rotations.get(slot).copied().unwrap_or(0))
     }
 }
 
@@ -157,31 +171,25 @@ fn composed(earlier: &[u32], new_to_old: &[u32]) -> Vec<u32> {
 }
 
 /// The entry of `order`, or `slot` itself where the order is empty.
-fn record_in(order: &[u32], slot: usize) -> usize {
+pub(super) fn record_in(order: &[u32], slot: usize) -> usize {
     order.get(slot).map_or(slot, |&record| record as usize)
 }
 
 impl<N: Notation> RecordFile<N> {
     fn bytes(&self) -> Vec<u8> {
         let Orders {
-            records,
-            rotations,
-            vertices,
+            records, vertices, ..
         } = &self.orders;
         let source = self.source.as_slice();
-        let mut old_to_new = vec![0; vertices.len()];
-        for (new, &old) in vertices.iter().enumerate() {
-            old_to_new[old as usize] = index32(new);
-        }
+        let old_to_new = self.orders.old_to_new();
         let old_to_new = old_to_new.as_slice();
         let mut layers = Vec::new();
         if !records.is_empty() || !vertices.is_empty() {
             let mut scratch = Vec::new();
             layers.push(Layer::new(&self.faces, move |slot, out| {
                 let number = record_in(records, slot);
-                let rotation = usize::from(rotations.get(slot).copied().unwrap_or(0));
                 let change = Change {
-                    rotation,
+                    rotation: self.orders.rotation(slot),
                     old_to_new,
                 };
                 let record = &source[self.faces.span(number)];
@@ -243,14 +251,14 @@ impl<N: Notation> Content for RecordFile<N> {
 type WriteSlot<'a> = dyn FnMut(usize, &mut Vec<u8>) + 'a;
 
 /// The slots of one kind of record, and what goes into each.
-struct Layer<'a> {
+pub(super) struct Layer<'a> {
     slots: &'a Spans,
     next: usize,
     write: Box<WriteSlot<'a>>,
 }
 
 impl<'a> Layer<'a> {
-    fn new(slots: &'a Spans, write: impl FnMut(usize, &mut Vec<u8>) + 'a) -> Self {
+    pub(super) fn new(slots: &'a Spans, write: impl FnMut(usize, &mut Vec<u8>) + 'a) -> Self {
         Self {
             slots,
             next: 0,
@@ -264,10 +272,21 @@ impl<'a> Layer<'a> {
 }
 
 /// The source with each slot of each layer filled anew. Slots do not overlap.
-fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>) -> Vec<u8> {
+fn spliced(source: &[u8], layers: Vec<Layer<'_>>) -> Vec<u8> {
     // New numbers may have more digits than the old ones, but not many have.
     let mut out = Vec::with_capacity(source.len() + source.len() / 16);
-    let mut copied = 0;
+    splice(source, 0..source.len(), layers, &mut out);
+    out
+}
+
+/// Appends the bytes `range` of the source, in which all slots are, with each slot filled anew.
+pub(super) fn splice(
+    source: &[u8],
+    range: Range<usize>,
+    mut layers: Vec<Layer<'_>>,
+    out: &mut Vec<u8>,
+) {
+    let mut copied = range.start;
     loop {
         // Slots come in long stretches of one kind: find the layer whose turn it is, and stay with
         // it until another one's next slot comes first.
@@ -291,13 +310,12 @@ fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>) -> Vec<u8> {
                 break;
             }
             out.extend_from_slice(&source[copied..slot.start]);
-            (layer.write)(layer.next, &mut out);
+            (layer.write)(layer.next, out);
             copied = slot.end;
             layer.next += 1;
         }
     }
-    out.extend_from_slice(&source[copied..]);
-    out
+    out.extend_from_slice(&source[copied..range.end]);
 }
 
 #[cfg(test)]
