@@ -56,8 +56,8 @@ pub(crate) enum Verb {
 pub(crate) struct Optimize {
     /// Files, folders with files, or patterns such as 'assets/**/*.glb'
     ///
-    /// .gltf, .glb, .obj, .ply, .off, also with .gz behind. Of a folder every such file is taken,
-    /// and those in folders below.
+    /// .gltf, .glb, .obj, .ply, .off, .stl, .wrl, .vrml, also with .gz behind. Of a folder every
+    /// such file is taken, and those in folders below.
     #[arg(required = true, value_name = "IN")]
     pub(crate) inputs: Vec<PathBuf>,
     /// Where to write: a file, or a folder that repeats the folders of the inputs

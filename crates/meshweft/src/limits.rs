@@ -24,13 +24,13 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// 8 GiB a file, as many vertices and faces as 32-bit indices can count, 128 levels.
+    /// 8 GiB a file, as many vertices and faces as 32-bit indices can count, 256 levels.
     fn default() -> Self {
         Self {
             file_bytes: 8 << 30,
             vertices: MAX_VERTICES,
             faces: MAX_FACES,
-            nesting: 128,
+            nesting: 256,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! OBJ, PLY and OFF files: records are permuted, every other byte stays.
+//! OBJ, PLY, OFF and STL files: records are permuted, every other byte stays.
 #![cfg(feature = "files")]
 #![expect(clippy::cast_possible_truncation, reason = "test meshes are small")]
 
@@ -10,6 +10,10 @@ mod real;
 mod round_trip;
 #[path = "files_text/simple.rs"]
 mod simple;
+#[path = "files_text/simple_stl.rs"]
+mod simple_stl;
+#[path = "files_text/stl.rs"]
+mod stl;
 
 use std::path::Path;
 
@@ -60,6 +64,7 @@ fn name_of(format: Format) -> &'static Path {
     Path::new(match format {
         Format::Obj => "mesh.obj",
         Format::Ply => "mesh.ply",
+        Format::Stl => "mesh.stl",
         _ => "mesh.off",
     })
 }
@@ -88,12 +93,13 @@ fn error(bytes: &[u8], format: Format) -> String {
 /// The message without the advice that is the same for all of its kind, which must be there.
 fn message(error: &FileError) -> String {
     let advice = match error.kind {
-        FileErrorKind::Malformed { .. } => ". Mend it there, or export the file again",
-        FileErrorKind::OverLimit { .. } => ". Split the file, or allow more",
-        _ => "",
+        FileErrorKind::Malformed { .. } => " Mend it there, or export the file again",
+        FileErrorKind::OverLimit { .. } => " Split the file, or allow more",
+        _ => return error.to_string(),
     };
     let text = error.to_string();
-    text.strip_suffix(advice).expect("advice").to_owned()
+    let text = text.strip_suffix(advice).expect("advice");
+    text.strip_suffix('.').unwrap_or(text).to_owned()
 }
 
 /// Asserts that `new` is `old` with its records in these orders, and nothing else.

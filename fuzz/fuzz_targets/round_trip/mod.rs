@@ -1,5 +1,5 @@
 //! What has to hold for any bytes that a text reader accepts: the faces last first within their
-//! runs, the vertices last first, read again, are the same triangles.
+//! runs, the vertices last first, read again, are the same triangles, in each mesh.
 
 use std::path::Path;
 
@@ -19,24 +19,26 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
     };
     let unchanged = document.to_bytes(path).expect("a name of the same format");
     assert_eq!(unchanged, data, "a file is written as it was read");
-    let Some(entry) = document.meshes().first() else {
-        return;
-    };
-    let movable = entry.vertices_movable;
-    let before = triangles(entry, false);
-    let faces = last_first_within_runs(entry);
-    let vertices = movable.then(|| last_first(entry.mesh.vertex_count()));
-    document
-        .apply(0, &faces, vertices.as_ref())
-        .expect("an order that the entry allows");
+    let mut before = Vec::new();
+    for mesh in 0..document.meshes().len() {
+        let entry = &document.meshes()[mesh];
+        before.push(triangles(entry, false));
+        let faces = last_first_within_runs(entry);
+        let vertices = entry
+            .vertices_movable
+            .then(|| last_first(entry.mesh.vertex_count()));
+        document
+            .apply(mesh, &faces, vertices.as_ref())
+            .expect("an order that the entry allows");
+    }
     let output = document.to_bytes(path).expect("a name of the same format");
     let again = read(output).expect("what is written can be read");
-    let after = triangles(&again.meshes()[0], movable);
-    assert_eq!(before, after, "the triangles by their old vertex numbers");
-    assert_eq!(
-        document.meshes()[0].mesh.faces(),
-        again.meshes()[0].mesh.faces()
-    );
+    assert_eq!(document.meshes().len(), again.meshes().len());
+    for ((before, entry), now) in before.iter().zip(again.meshes()).zip(document.meshes()) {
+        let after = triangles(entry, entry.vertices_movable);
+        assert_eq!(*before, after, "the triangles by their old vertex numbers");
+        assert_eq!(now.mesh.faces(), entry.mesh.faces());
+    }
 }
 
 fn last_first(vertex_count: usize) -> VertexOrder {

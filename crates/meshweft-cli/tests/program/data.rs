@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use crate::{Folder, data_folder};
 
 /// The endings of the mesh formats that are no glTF.
-const MESHES: &[&str] = &[".obj", ".ply", ".off"];
+const MESHES: &[&str] = &[".obj", ".ply", ".off", ".stl", ".wrl"];
 
 /// The files below a folder with one of these endings (`.gz` aside), sorted.
 fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {

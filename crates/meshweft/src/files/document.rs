@@ -75,6 +75,8 @@ impl Document {
             Format::Obj => super::obj::read(bytes, options),
             Format::Ply => super::ply::read(bytes, options),
             Format::Off => super::off::read(bytes, &options.limits),
+            Format::Stl => super::stl::read(bytes, &options.limits),
+            Format::Vrml => super::vrml::read(bytes, &options.limits),
         };
         let (content, notes) = read.map_err(|problem| problem.in_file(path, Some(format)))?;
         Ok(Self {

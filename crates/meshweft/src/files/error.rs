@@ -130,15 +130,16 @@ impl fmt::Display for FileErrorKind {
         match self {
             Self::Io(error) => write!(f, "{error}"),
             Self::UnknownFormat => f.write_str(
-                "unknown format: files that end in .gltf, .glb, .obj, .ply or .off are read \
-                 (also with .gz behind)",
+                "unknown format: files that end in .gltf, .glb, .obj, .ply, .off, .stl, .wrl \
+                 or .vrml are read (also with .gz behind)",
             ),
             Self::Truncated { what } => write!(
                 f,
                 "the file ends inside {what}. Fetch or export it again: it is incomplete"
             ),
             Self::Malformed { problem } => {
-                write!(f, "{problem}. Mend it there, or export the file again")
+                let end = if problem.ends_with('?') { "" } else { "." };
+                write!(f, "{problem}{end} Mend it there, or export the file again")
             }
             Self::OverLimit { what, found, limit } => {
                 write!(

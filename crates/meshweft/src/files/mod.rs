@@ -14,7 +14,9 @@ mod options;
 mod ply;
 mod records;
 mod splice;
+mod stl;
 mod text;
+mod vrml;
 
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
@@ -45,6 +47,10 @@ pub enum Format {
     Ply,
     /// Object File Format, ascii.
     Off,
+    /// Stereolithography, binary or ascii.
+    Stl,
+    /// VRML97, also called VRML 2.0.
+    Vrml,
 }
 
 impl Format {
@@ -59,6 +65,8 @@ impl Format {
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
             "off" => Some(Self::Off),
+            "stl" => Some(Self::Stl),
+            "wrl" | "vrml" => Some(Self::Vrml),
             _ => None,
         }
     }
@@ -72,6 +80,8 @@ impl fmt::Display for Format {
             Self::Obj => "OBJ",
             Self::Ply => "PLY",
             Self::Off => "OFF",
+            Self::Stl => "STL",
+            Self::Vrml => "VRML",
         })
     }
 }

@@ -26,7 +26,7 @@ pub(super) struct Change<'a> {
 }
 
 impl Change<'_> {
-    fn is_nothing(&self) -> bool {
+    pub(super) fn is_nothing(&self) -> bool {
         self.rotation == 0 && self.old_to_new.is_empty()
     }
 
@@ -123,13 +123,13 @@ pub(super) struct RecordFile<N> {
 /// All orders that were applied, as one; empty where nothing was moved or turned.
 #[derive(Debug, Default)]
 pub(super) struct Orders {
-    records: Vec<u32>,
-    rotations: Vec<u8>,
-    vertices: Vec<u32>,
+    pub(super) records: Vec<u32>,
+    pub(super) rotations: Vec<u8>,
+    pub(super) vertices: Vec<u32>,
 }
 
 impl Orders {
-    fn add_faces(&mut self, order: &FaceOrder) {
+    pub(super) fn add_faces(&mut self, order: &FaceOrder) {
         if order.is_identity() {
             return;
         }
@@ -141,10 +141,24 @@ impl Orders {
         self.records = composed(&self.records, order.new_to_old());
     }
 
-    fn add_vertices(&mut self, order: &VertexOrder) {
+    pub(super) fn add_vertices(&mut self, order: &VertexOrder) {
         if !order.is_identity() {
             self.vertices = composed(&self.vertices, order.new_to_old());
         }
+    }
+
+    /// The new number of each vertex; empty if they keep theirs.
+    pub(super) fn old_to_new(&self) -> Vec<u32> {
+        let mut old_to_new = vec![0; self.vertices.len()];
+        for (new, &old) in self.vertices.iter().enumerate() {
+            old_to_new[old as usize] = index32(new);
+        }
+        old_to_new
+    }
+
+    /// How far the corners of the record that goes to `slot` are turned.
+    pub(super) fn rotation(&self, slot: usize) -> usize {
+        usize::from(self.rotations.get(slot).copied().unwrap_or(0))
     }
 }
 
@@ -158,22 +172,17 @@ fn composed(earlier: &[u32], new_to_old: &[u32]) -> Vec<u32> {
 }
 
 /// The entry of `order`, or `slot` itself where the order is empty.
-fn record_in(order: &[u32], slot: usize) -> usize {
+pub(super) fn record_in(order: &[u32], slot: usize) -> usize {
     order.get(slot).map_or(slot, |&record| record as usize)
 }
 
 impl<N: Notation> RecordFile<N> {
     fn write(&self, sink: &mut dyn io::Write) -> io::Result<()> {
         let Orders {
-            records,
-            rotations,
-            vertices,
+            records, vertices, ..
         } = &self.orders;
         let source = self.source.as_slice();
-        let mut old_to_new = vec![0; vertices.len()];
-        for (new, &old) in vertices.iter().enumerate() {
-            old_to_new[old as usize] = index32(new);
-        }
+        let old_to_new = self.orders.old_to_new();
         let old_to_new = old_to_new.as_slice();
         let mut layers = Vec::new();
         if !records.is_empty() || !vertices.is_empty() {
@@ -181,9 +190,8 @@ impl<N: Notation> RecordFile<N> {
             layers.push(Layer::new(&self.faces, move |slots, out| {
                 for slot in slots {
                     let number = record_in(records, slot);
-                    let rotation = usize::from(rotations.get(slot).copied().unwrap_or(0));
                     let change = Change {
-                        rotation,
+                        rotation: self.orders.rotation(slot),
                         old_to_new,
                     };
                     let record = &source[self.faces.span(number)];
@@ -214,7 +222,7 @@ impl<N: Notation> RecordFile<N> {
                 }
             }));
         }
-        spliced(source, layers, sink)
+        splice(source, 0..source.len(), layers, sink)
     }
 }
 
@@ -245,14 +253,17 @@ impl<N: Notation> Content for RecordFile<N> {
 type WriteSlots<'a> = dyn FnMut(Range<usize>, &mut Vec<u8>) + 'a;
 
 /// The slots of one kind of record, and what goes into each.
-struct Layer<'a> {
+pub(super) struct Layer<'a> {
     slots: &'a Spans,
     next: usize,
     write: Box<WriteSlots<'a>>,
 }
 
 impl<'a> Layer<'a> {
-    fn new(slots: &'a Spans, write: impl FnMut(Range<usize>, &mut Vec<u8>) + 'a) -> Self {
+    pub(super) fn new(
+        slots: &'a Spans,
+        write: impl FnMut(Range<usize>, &mut Vec<u8>) + 'a,
+    ) -> Self {
         Self {
             slots,
             next: 0,
@@ -261,7 +272,7 @@ impl<'a> Layer<'a> {
     }
 
     /// Each slot gets the record of `source` that `order` says.
-    fn moved(slots: &'a Spans, source: &'a [u8], order: &'a [u32]) -> Self {
+    pub(super) fn moved(slots: &'a Spans, source: &'a [u8], order: &'a [u32]) -> Self {
         Self::new(slots, move |numbers, out| {
             for slot in numbers {
                 out.extend_from_slice(&source[slots.span(record_in(order, slot))]);
@@ -286,10 +297,16 @@ impl<'a> Layer<'a> {
 /// Bytes that are gathered before they are written.
 const PIECE: usize = 1 << 18;
 
-/// Writes the source with each slot of each layer filled anew. Slots do not overlap.
-fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>, sink: &mut dyn io::Write) -> io::Result<()> {
-    let mut out = Vec::with_capacity(PIECE + PIECE / 4);
-    let mut copied = 0;
+/// Writes the bytes `range` of the source, in which all slots are, with each slot filled anew. Slots
+/// do not overlap.
+pub(super) fn splice(
+    source: &[u8],
+    range: Range<usize>,
+    mut layers: Vec<Layer<'_>>,
+    sink: &mut dyn io::Write,
+) -> io::Result<()> {
+    let mut out = Vec::with_capacity((PIECE + PIECE / 4).min(range.len() * 2));
+    let mut copied = range.start;
     loop {
         // Slots come in long stretches of one kind: find the layer whose turn it is, and stay with
         // it until another one's next slot comes first.
@@ -330,7 +347,7 @@ fn spliced(source: &[u8], mut layers: Vec<Layer<'_>>, sink: &mut dyn io::Write) 
         }
     }
     sink.write_all(&out)?;
-    sink.write_all(&source[copied..])
+    sink.write_all(&source[copied..range.end])
 }
 
 #[cfg(test)]
@@ -370,7 +387,7 @@ mod tests {
             }),
         ];
         let mut out = Vec::new();
-        spliced(source, layers, &mut out).unwrap();
+        splice(source, 0..source.len(), layers, &mut out).unwrap();
         assert_eq!(out, b"<c|DD|a|BB>");
     }
 }

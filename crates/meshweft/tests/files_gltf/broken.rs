@@ -20,12 +20,13 @@ fn error(name: &str, bytes: Vec<u8>) -> String {
 /// The message without the advice that is the same for all of its kind, which must be there.
 fn message(error: &FileError) -> String {
     let advice = match error.kind {
-        FileErrorKind::Malformed { .. } => ". Mend it there, or export the file again",
-        FileErrorKind::OverLimit { .. } => ". Split the file, or allow more",
-        _ => "",
+        FileErrorKind::Malformed { .. } => " Mend it there, or export the file again",
+        FileErrorKind::OverLimit { .. } => " Split the file, or allow more",
+        _ => return error.to_string(),
     };
     let text = error.to_string();
-    text.strip_suffix(advice).expect("advice").to_owned()
+    let text = text.strip_suffix(advice).expect("advice");
+    text.strip_suffix('.').unwrap_or(text).to_owned()
 }
 
 /// The JSON and binary chunk of a mesh with 4 vertices and 2 faces.
@@ -244,10 +245,10 @@ fn the_container_is_broken() {
         let found = error("scene.glb", bytes.to_vec());
         assert_eq!(found, format!("scene.glb: {expected}"));
     }
-    let deep = format!("{}{}", "[".repeat(129), "]".repeat(129));
+    let deep = format!("{}{}", "[".repeat(257), "]".repeat(257));
     assert_eq!(
         error("scene.gltf", deep.into_bytes()),
-        "scene.gltf: 129 levels of JSON inside each other: more than the limit of 128"
+        "scene.gltf: 257 levels of JSON inside each other: more than the limit of 256"
     );
 }
 

@@ -3,6 +3,7 @@
 use meshweft::Limits;
 use meshweft::files::{Document, Format};
 
+use super::stl::{ASCII, binary};
 use super::{OBJ, PLY, PLY_HEAD, PLY_ROWS, Random, binary_ply, error, name_of, round_trip};
 
 #[test]
@@ -27,6 +28,8 @@ fn limits_are_kept() {
         ply,
         "mesh.ply: line 3: 3 vertices: more than the limit of 2"
     );
+    let stl = open(ASCII, Format::Stl);
+    assert_eq!(stl, "mesh.stl: line 9: 2 faces: more than the limit of 1");
     let off = open("OFF\n1 1 0\n0 0 0\n4 0 0 0 0\n", Format::Off);
     assert_eq!(off, "mesh.off: line 4: 2 faces: more than the limit of 1");
 }
@@ -71,11 +74,41 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         let prefix = format!("{}: ", name_of(format).display());
         assert_eq!(found, prefix + &expected);
     }
+    for (bytes, expected) in stl_cases() {
+        assert_eq!(error(&bytes, Format::Stl), format!("mesh.stl: {expected}"));
+    }
     let mut bytes = binary_ply(true, "int", false, "");
     bytes.truncate(bytes.len() - 20);
     let end = bytes.len();
     let expected = format!("mesh.ply: byte {end}: the file ends inside vertex 5 of 6. {cut}");
     assert_eq!(error(&bytes, Format::Ply), expected);
+}
+
+fn stl_cases() -> Vec<(Vec<u8>, String)> {
+    let cut = "Fetch or export it again: it is incomplete";
+    let facet =
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet";
+    let text = |text: String, expected: &str| (text.into_bytes(), expected.to_owned());
+    let mut short = binary("made by hand", 3, b"");
+    short.truncate(84 + 149);
+    let mut solid = binary("solid", 3, b"");
+    solid.pop();
+    let mut other = binary("made by hand", 1, b"");
+    other[80..84].copy_from_slice(b"text");
+    vec![
+        (Vec::new(), format!("byte 0: the file ends inside the 84 bytes that a binary STL file starts with (an ascii one starts with the word solid). {cut}")),
+        (short, format!("byte 233: the file ends inside facet 2 of 3. {cut}")),
+        (solid, format!("byte 233: the file ends inside facet 2 of 3. {cut}")),
+        (other, "byte 134: 1954047348 facets are promised and 1 are there: is it another format? An ascii STL file starts with the word solid".into()),
+        text("solid\nendsolid\nx".into(), "line 3: \"x\" where \"solid\" or the end of the file should stand"),
+        text("solidx\nendsolid\n".into(), "line 1: \"solidx\" where \"solid\" or the end of the file should stand"),
+        text(format!("solid\n{facet}\n"), &format!("line 3: the file ends inside solid 0: there is no endsolid. {cut}")),
+        text(format!("solid\n{facet}\nfacet\n"), &format!("line 4: the file ends inside facet 1. {cut}")),
+        text(format!("solid\n{facet}\nsolid\n"), "line 3: \"solid\" where \"facet\" or \"endsolid\" should stand"),
+        text(format!("solid\n{}", facet.replace("endloop", "vertex")), "line 2: \"vertex\" where \"endloop\" of facet 0 should stand"),
+        text(format!("solid\n{}", facet.replace("vertex 1 0 0", "vertex 1 zero 0")), "line 2: facet 0, corner 1: \"zero\" is not a coordinate: write a number"),
+        text(format!("solid\n{}", facet.replace("normal 0 0 1", "normal 0 0 ü")), "line 2: facet 0: \"ü\" is no part of a normal: write a number"),
+    ]
 }
 
 /// One file of each kind, small enough to be spoilt in thousands of ways.
@@ -90,6 +123,8 @@ fn small_files() -> Vec<(Vec<u8>, Format)> {
         (binary_ply(false, "int", true, ""), Format::Ply),
         (binary_ply(true, "uchar", false, lists), Format::Ply),
         (off.into(), Format::Off),
+        (ASCII.into(), Format::Stl),
+        (binary("solid", 4, b"tail"), Format::Stl),
     ]
 }
 

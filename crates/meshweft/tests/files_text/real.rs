@@ -23,7 +23,10 @@ fn index(folder: &Path) -> Vec<(String, Format, Vec<String>)> {
         let mut columns = line.split('\t').map(str::to_owned);
         let file = columns.next()?;
         let format = Format::of_path(Path::new(&file))?;
-        let is_text = matches!(format, Format::Obj | Format::Ply | Format::Off);
+        let is_text = matches!(
+            format,
+            Format::Obj | Format::Ply | Format::Off | Format::Stl
+        );
         is_text.then(|| (file, format, columns.collect()))
     });
     rows.collect()

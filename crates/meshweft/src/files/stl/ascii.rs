@@ -1,0 +1,201 @@
+//! Ascii STL: `facet` to `endfacet` is a record, `solid` to `endsolid` a run.
+//!
+//! Keywords are read in any case and words may stand on any lines; only a name ends with its line.
+
+use std::ops::Range;
+
+use super::Facets;
+use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::records::{Spans, check_face_count};
+use crate::files::splice::{Change, Notation, write_corners};
+use crate::files::text::{
+    Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
+};
+use crate::limits::{Limits, index32};
+
+/// Where the word `solid` starts that makes a file ascii.
+pub(super) fn start(bytes: &[u8]) -> Option<usize> {
+    let mark = b"\xef\xbb\xbf";
+    let text = bytes.strip_prefix(mark).unwrap_or(bytes);
+    let at = text.iter().position(|&b| !is_blank(b) && !is_line_end(b))?;
+    let word = text[at..].get(..b"solid".len())?;
+    let at = at + bytes.len() - text.len();
+    word.eq_ignore_ascii_case(b"solid").then_some(at)
+}
+
+pub(super) fn read(text: &[u8], at: usize, limits: &Limits) -> Result<Facets, Problem> {
+    let mut reader = Reader {
+        text,
+        tokens: Tokens::plain(text, at),
+        spans: Spans::new(),
+        corners: Vec::new(),
+        runs: Vec::new(),
+        name: None,
+    };
+    let mut solids = 0;
+    while let Some(token) = reader.tokens.next() {
+        reader.is_word(&token, b"solid", || {
+            "\"solid\" or the end of the file".into()
+        })?;
+        reader.solid(solids, limits)?;
+        solids += 1;
+    }
+    let name = match reader.name {
+        Some(name) => String::from_utf8_lossy(&text[name]).into_owned(),
+        None => "mesh".to_owned(),
+    };
+    Ok(Facets {
+        spans: reader.spans,
+        corners: reader.corners,
+        runs: reader.runs,
+        name,
+    })
+}
+
+struct Reader<'a> {
+    text: &'a [u8],
+    tokens: Tokens<'a>,
+    spans: Spans,
+    corners: Vec<[[u32; 3]; 3]>,
+    runs: Vec<u32>,
+    /// The first name of a solid that is not empty.
+    name: Option<Range<usize>>,
+}
+
+impl Reader<'_> {
+    /// Reads what follows the word `solid`.
+    fn solid(&mut self, number: usize, limits: &Limits) -> Result<(), Problem> {
+        let name = self.rest_of_line();
+        if self.name.is_none() && !name.is_empty() {
+            self.name = Some(name);
+        }
+        let first = self.corners.len();
+        loop {
+            let token = self.next(|| format!("solid {number}: there is no endsolid"))?;
+            if self.text[token.clone()].eq_ignore_ascii_case(b"endsolid") {
+                self.rest_of_line();
+                return Ok(());
+            }
+            self.is_word(&token, b"facet", || "\"facet\" or \"endsolid\"".into())?;
+            if self.corners.len() == first {
+                self.runs.push(index32(first));
+            }
+            self.facet(token.start)?;
+            let checked = check_face_count(self.corners.len(), limits);
+            checked.map_err(|kind| self.problem(token.start, kind))?;
+        }
+    }
+
+    /// Reads what follows the word `facet`, which stands at `start`.
+    fn facet(&mut self, start: usize) -> Result<(), Problem> {
+        let facet = self.corners.len();
+        self.word(b"normal")?;
+        for _ in 0..3 {
+            let token = self.next_of_facet()?;
+            let number = &self.text[token.clone()];
+            // Programs write things like -1.#IND for a facet without an area, and nothing here
+            // depends on a normal.
+            if !number.iter().all(u8::is_ascii_graphic) {
+                let text = format!(
+                    "facet {facet}: {} is no part of a normal: write a number",
+                    shown(number)
+                );
+                return Err(self.problem(token.start, FileErrorKind::malformed(text)));
+            }
+        }
+        self.word(b"outer")?;
+        self.word(b"loop")?;
+        let mut corners = [[0; 3]; 3];
+        for (corner, bits) in corners.iter_mut().enumerate() {
+            self.word(b"vertex")?;
+            for value in bits {
+                let token = self.next_of_facet()?;
+                let number = &self.text[token.clone()];
+                let parsed = coordinate(number).ok_or_else(|| {
+                    let found = shown(number);
+                    let text = format!(
+                        "facet {facet}, corner {corner}: {found} is not a coordinate: write a number"
+                    );
+                    self.problem(token.start, FileErrorKind::malformed(text))
+                })?;
+                *value = parsed.to_bits();
+            }
+        }
+        self.word(b"endloop")?;
+        self.word(b"endfacet")?;
+        let pushed = self.spans.push(start..self.tokens.at());
+        pushed.map_err(|kind| self.problem(start, kind))?;
+        self.corners.push(corners);
+        Ok(())
+    }
+
+    /// Goes to the end of the line; the span of what stands there without the blanks around.
+    fn rest_of_line(&mut self) -> Range<usize> {
+        let at = self.tokens.at();
+        let end = line_end(self.text, at);
+        self.tokens = Tokens::plain(self.text, end);
+        let blanks = self.text[at..end].iter().take_while(|&&b| is_blank(b));
+        trimmed(self.text, at + blanks.count(), end)
+    }
+
+    fn next(&mut self, what: impl FnOnce() -> String) -> Result<Range<usize>, Problem> {
+        let token = self.tokens.next();
+        token.ok_or_else(|| self.problem(self.text.len(), FileErrorKind::truncated(what())))
+    }
+
+    fn next_of_facet(&mut self) -> Result<Range<usize>, Problem> {
+        let facet = self.corners.len();
+        self.next(|| format!("facet {facet}"))
+    }
+
+    /// Reads a keyword of a facet.
+    fn word(&mut self, word: &[u8]) -> Result<(), Problem> {
+        let token = self.next_of_facet()?;
+        let facet = self.corners.len();
+        self.is_word(&token, word, || format!("{} of facet {facet}", shown(word)))
+    }
+
+    /// An error if `token` is not `word`; `expected` says what should be there.
+    fn is_word(
+        &self,
+        token: &Range<usize>,
+        word: &[u8],
+        expected: impl FnOnce() -> String,
+    ) -> Result<(), Problem> {
+        let found = &self.text[token.clone()];
+        if found.eq_ignore_ascii_case(word) {
+            return Ok(());
+        }
+        let text = format!("{} where {} should stand", shown(found), expected());
+        Err(self.problem(token.start, FileErrorKind::malformed(text)))
+    }
+
+    fn problem(&self, at: usize, kind: FileErrorKind) -> Problem {
+        kind.at(Place::Line(line_of(self.text, at)))
+    }
+}
+
+/// Exchanges the positions of a facet, each with what stands between its numbers.
+pub(super) struct AsciiNotation;
+
+impl Notation for AsciiNotation {
+    fn write_face(
+        &self,
+        _number: usize,
+        record: &[u8],
+        change: Change<'_>,
+        scratch: &mut Vec<Range<usize>>,
+        out: &mut Vec<u8>,
+    ) {
+        let mut tokens = Tokens::plain(record, 0);
+        scratch.clear();
+        // "facet normal i j k outer loop", then three times "vertex x y z".
+        for skipped in [8, 1, 1] {
+            if let (Some(x), Some(_), Some(z)) = (tokens.nth(skipped), tokens.next(), tokens.next())
+            {
+                scratch.push(x.start..z.end);
+            }
+        }
+        write_corners(record, scratch, change, 0, |_| None, out);
+    }
+}

@@ -1,0 +1,116 @@
+//! STL, binary or ascii: facets move, each with its normal and its attribute bytes.
+//!
+//! Three choices stand behind what is done here:
+//!
+//! - STL stores no vertices, only positions. Corners whose three numbers have the same bits are
+//!   one vertex, and vertices are numbered by these bits: a mesh keeps its numbers whatever order
+//!   its facets are in. Vertices cannot be moved, as there are none in the file.
+//! - A file is binary unless it starts with `solid`; one that does is binary all the same if its
+//!   length is what a binary file of that count has, or if there is a zero byte in the count,
+//!   which text has not. Many programs begin the header of a binary file with `solid`.
+//! - Each `solid` of an ascii file is a *run*: a facet never leaves it. A corner is turned by
+//!   exchanging the three positions of its facet.
+
+mod ascii;
+mod binary;
+
+use std::collections::HashMap;
+
+use super::error::{FileErrorKind, Place};
+use super::records::{FaceRecords, Spans, check_vertex_count};
+use super::splice::{Notation, Orders, RecordFile};
+use super::{MeshEntry, Note, ReadResult};
+use crate::Mesh;
+use crate::limits::{Limits, index32};
+
+/// Reads an STL file.
+///
+/// Time O(bytes + vertices log vertices), memory a few times the bytes.
+pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
+    match ascii::start(&bytes) {
+        Some(at) if !binary::is_sure(&bytes) => {
+            let facets = ascii::read(&bytes, at, limits)?;
+            content(bytes, facets, ascii::AsciiNotation, limits)
+        }
+        _ => {
+            let facets = binary::read(&bytes, limits)?;
+            content(bytes, facets, binary::BinaryNotation, limits)
+        }
+    }
+}
+
+/// The facets of a file.
+struct Facets {
+    spans: Spans,
+    /// The bits of the positions of each facet's corners.
+    corners: Vec<[[u32; 3]; 3]>,
+    runs: Vec<u32>,
+    name: String,
+}
+
+fn content<N: Notation + 'static>(
+    source: Vec<u8>,
+    facets: Facets,
+    notation: N,
+    limits: &Limits,
+) -> ReadResult {
+    let (mut entries, mut notes) = (Vec::new(), Vec::new());
+    if facets.corners.is_empty() {
+        let text = "no faces: there is nothing to order".into();
+        let place = Place::File;
+        notes.push(Note { place, text });
+    } else {
+        let mesh = welded(&facets.corners, limits).map_err(|kind| kind.at(Place::File))?;
+        entries.push(MeshEntry {
+            name: facets.name,
+            mesh,
+            polygons: None,
+            runs: facets.runs,
+            vertex_group: 0,
+            vertices_movable: false,
+            corners_turnable: true,
+        });
+    }
+    let file = RecordFile {
+        source,
+        vertices: Spans::new(),
+        faces: facets.spans,
+        companions: Vec::new(),
+        lines: Spans::new(),
+        notation,
+        entries,
+        orders: Orders::default(),
+    };
+    Ok((Box::new(file), notes))
+}
+
+/// The mesh in which positions of the same bits are one vertex; vertices are sorted by bits.
+fn welded(facets: &[[[u32; 3]; 3]], limits: &Limits) -> Result<Mesh, FileErrorKind> {
+    // Only looked up, never iterated: the order of its entries does not matter.
+    let mut numbers: HashMap<[u32; 3], u32> = HashMap::new();
+    let mut unique = Vec::new();
+    let mut records = FaceRecords::default();
+    records.reserve(facets.len());
+    for facet in facets {
+        let face = facet.map(|bits| {
+            *numbers.entry(bits).or_insert_with(|| {
+                unique.push((bits, index32(unique.len())));
+                index32(unique.len() - 1)
+            })
+        });
+        check_vertex_count(unique.len(), limits)?;
+        records.push(&face, limits)?;
+    }
+    drop(numbers);
+    unique.sort_unstable();
+    let mut sorted_of = vec![0; unique.len()];
+    for (sorted, (_, first)) in (0_u32..).zip(&unique) {
+        sorted_of[*first as usize] = sorted;
+    }
+    for vertex in records.faces.as_flattened_mut() {
+        *vertex = sorted_of[*vertex as usize];
+    }
+    let positions = unique.iter().map(|(bits, _)| bits.map(f32::from_bits));
+    let mesh = Mesh::new(positions.collect::<Vec<_>>(), records.faces);
+    mesh.map_err(|error| FileErrorKind::malformed(error.to_string()))
+}

@@ -1,0 +1,351 @@
+//! What moves with the faces and vertices of a face set, and what keeps it from moving.
+
+use super::lexer::{Fault, index};
+use super::lists::{Groups, Polygons, positions};
+use super::scene::{Child, FaceSet, List, Role, Scene};
+use crate::Mesh;
+use crate::files::MeshEntry;
+use crate::files::records::{FaceRecords, Spans, check_vertex_count, past_the_last_vertex};
+use crate::limits::{Limits, index32};
+
+/// Where the records of a face set stand.
+#[derive(Debug)]
+pub(super) struct Slots {
+    /// The polygons of `coordIndex`, then of the other lists of indices that go by corner.
+    pub(super) polygons: Vec<Spans>,
+    /// What goes by face: indices, colors, normals.
+    pub(super) companions: Vec<Spans>,
+    /// What goes by vertex: points, and colors, normals, texture coordinates without indices.
+    pub(super) vertices: Vec<Spans>,
+}
+
+/// A face set that can be ordered.
+#[derive(Debug)]
+pub(super) struct Bound {
+    pub(super) entry: MeshEntry,
+    pub(super) slots: Slots,
+    /// Why its vertices stay.
+    pub(super) vertices_stay: Option<String>,
+}
+
+/// Why a face set stays as it is, or what is wrong with the file.
+#[derive(Debug)]
+pub(super) enum Stop {
+    Stays(String),
+    Fault(Fault),
+}
+
+impl From<Fault> for Stop {
+    fn from(fault: Fault) -> Self {
+        Self::Fault(fault)
+    }
+}
+
+fn stays<T>(why: impl Into<String>) -> Result<T, Stop> {
+    Err(Stop::Stays(why.into()))
+}
+
+/// Binds face sets; the positions of shared coordinates are read once.
+pub(super) struct Binder<'a> {
+    pub(super) text: &'a [u8],
+    pub(super) scene: &'a Scene<'a>,
+    pub(super) limits: &'a Limits,
+    /// By number of [`Scene::coordinates`].
+    pub(super) shared: Vec<Option<Vec<[f32; 3]>>>,
+}
+
+impl Binder<'_> {
+    /// Reads the lists of a face set.
+    ///
+    /// Time O(bytes of its lists, and of the coordinates it shares when they are read first).
+    pub(super) fn bind(&mut self, set: &FaceSet, number: usize) -> Result<Bound, Stop> {
+        if let Some(obstacle) = &set.obstacle {
+            return stays(&**obstacle);
+        }
+        if self.scene.script_reads_nodes {
+            return stays("a Script that is handed nodes may read it by number");
+        }
+        let own_name = set.own_name.as_ref().map(|name| &self.text[name.clone()]);
+        if own_name.is_some_and(|name| self.scene.routed.contains(name)) {
+            return stays("a ROUTE may replace its fields");
+        }
+        let points = match &set.children[Role::Coord as usize] {
+            Child::None => return stays("it has no coord"),
+            Child::Used(None) => return stays("no Coordinate above it has the name of its coord"),
+            Child::Used(Some(shared)) => &self.scene.coordinates[*shared],
+            Child::Own(_, points) => points,
+        };
+        if points.count % 3 != 0 {
+            let text = format!(
+                "the Coordinate has {} numbers, which are not three a vertex",
+                points.count
+            );
+            return Err(Fault::malformed(points.content.start, text).into());
+        }
+        let vertex_count = points.count / 3;
+        let at = points.content.start;
+        check_vertex_count(vertex_count, self.limits).map_err(|kind| Fault { at, kind })?;
+        let mut corners = self.corners(set, vertex_count)?;
+        let mut slots = Slots {
+            polygons: vec![std::mem::replace(&mut corners.spans, Spans::new())],
+            companions: Vec::new(),
+            vertices: Vec::new(),
+        };
+        let mut vertices_stay = None;
+        for (role, per_face) in [
+            (Role::Normal, set.normal_per_face),
+            (Role::Color, set.color_per_face),
+            (Role::TexCoord, false),
+        ] {
+            match per_face {
+                true => self.per_face(set, role, &corners, &mut slots)?,
+                false => {
+                    let why = self.per_vertex(set, role, vertex_count, &mut corners, &mut slots)?;
+                    vertices_stay = vertices_stay.or(why);
+                }
+            }
+        }
+        let count = corners.records.len();
+        let mut runs = vec![0];
+        if corners.is_open && count > 1 {
+            // The last polygon has no -1 behind it, and would need one anywhere else.
+            runs.push(index32(count - 1));
+        }
+        let malformed = |error: crate::MeshError| {
+            Stop::Fault(Fault::malformed(set.span.start, error.to_string()))
+        };
+        let (mesh, obstacle) = match &set.children[Role::Coord as usize] {
+            Child::Used(Some(shared)) => {
+                let positions = self.shared_positions(*shared)?;
+                let mesh = of_used(positions, std::mem::take(&mut corners.records.faces));
+                let why = "its Coordinate is shared with another node";
+                (mesh.map_err(malformed)?, Some(why.to_owned()))
+            }
+            _ => {
+                let mut spans = Spans::new();
+                let positions = positions(self.text, points, Some(&mut spans))?;
+                slots.vertices.insert(0, spans);
+                let mesh = Mesh::new(positions, std::mem::take(&mut corners.records.faces));
+                (mesh.map_err(malformed)?, self.points_stay(set))
+            }
+        };
+        vertices_stay = obstacle.or(vertices_stay);
+        let name = match &set.name {
+            Some(name) => String::from_utf8_lossy(&self.text[name.clone()]).into_owned(),
+            None => format!("mesh {number}"),
+        };
+        let entry = MeshEntry {
+            name,
+            mesh,
+            corners_turnable: corners.records.polygons.is_none(),
+            polygons: corners.records.polygons,
+            runs,
+            vertex_group: 0,
+            vertices_movable: vertices_stay.is_none(),
+        };
+        Ok(Bound {
+            entry,
+            slots,
+            vertices_stay,
+        })
+    }
+
+    /// Whether something else may read the node that hangs on a face set.
+    fn is_shared(&self, child: &Child) -> bool {
+        match child {
+            Child::None | Child::Own(None, _) => false,
+            Child::Used(_) => true,
+            Child::Own(Some(name), _) => {
+                let name = &self.text[name.clone()];
+                self.scene.used.contains(name) || self.scene.routed.contains(name)
+            }
+        }
+    }
+
+    /// Why the points cannot be moved.
+    fn points_stay(&self, set: &FaceSet) -> Option<String> {
+        if set.in_proto {
+            return Some("it stands in a PROTO".into());
+        }
+        let shared = self.is_shared(&set.children[Role::Coord as usize]);
+        shared.then(|| "its Coordinate is named by a USE or a ROUTE".into())
+    }
+
+    /// Reads `coordIndex`.
+    fn corners(&self, set: &FaceSet, vertex_count: usize) -> Result<Corners, Stop> {
+        let list = set.indices[Role::Coord as usize]
+            .as_ref()
+            .unwrap_or(&List::EMPTY);
+        let mut polygons = Polygons::new(self.text, list);
+        let mut found = Corners {
+            records: FaceRecords::default(),
+            spans: Spans::new(),
+            is_open: false,
+            has_empty: false,
+        };
+        let mut corners = Vec::new();
+        while let Some(polygon) = polygons.next()? {
+            let face = found.records.len();
+            let at = polygon.span.start;
+            corners.clear();
+            for (corner, &number) in polygons.numbers.iter().enumerate() {
+                let vertex = u32::try_from(number).ok();
+                let vertex = vertex.filter(|&vertex| (vertex as usize) < vertex_count);
+                corners.push(vertex.ok_or_else(|| {
+                    let last = vertex_count.checked_sub(1);
+                    let kind = past_the_last_vertex("face", face, corner, number, last);
+                    Fault { at, kind }
+                })?);
+            }
+            found.has_empty |= corners.is_empty();
+            found.is_open |= polygon.is_open;
+            let pushed = found.records.push(&corners, self.limits);
+            let pushed = pushed.and_then(|()| found.spans.push(polygon.span));
+            pushed.map_err(|kind| Fault { at, kind })?;
+        }
+        Ok(found)
+    }
+
+    /// Binds what goes by face.
+    fn per_face(
+        &self,
+        set: &FaceSet,
+        role: Role,
+        corners: &Corners,
+        slots: &mut Slots,
+    ) -> Result<(), Stop> {
+        let (field, index_field) = (role.field(), role.index_field());
+        let child = &set.children[role as usize];
+        let count = corners.records.len();
+        let list = set.indices[role as usize].as_ref();
+        let indices = list.filter(|list| list.count > 0);
+        let (list, numbers_each, what) = match (indices, child) {
+            (None, Child::None) => return Ok(()),
+            (Some(indices), _) => (indices, 1, index_field),
+            (None, Child::Own(_, values)) if !self.is_shared(child) => (values, 3, field),
+            (None, _) => {
+                return stays(format!(
+                    "its {field} goes by face and is shared with another node"
+                ));
+            }
+        };
+        if list.count / numbers_each < count {
+            return stays(format!("its {what} goes by face and has less than faces"));
+        }
+        if corners.has_empty {
+            return stays(format!(
+                "its {what} goes by face, and there are faces without corners"
+            ));
+        }
+        let mut spans = Spans::new();
+        for span in Groups::new(self.text, list, numbers_each).take(count) {
+            if numbers_each == 1 && index(&self.text[span.clone()]).is_none_or(|n| n < 0) {
+                return stays(format!("its {what} goes by face and has other entries"));
+            }
+            let at = span.start;
+            spans.push(span).map_err(|kind| Fault { at, kind })?;
+        }
+        slots.companions.push(spans);
+        Ok(())
+    }
+
+    /// Binds what goes by corner or by vertex; why the vertices must stay, if they must.
+    fn per_vertex(
+        &self,
+        set: &FaceSet,
+        role: Role,
+        vertex_count: usize,
+        corners: &mut Corners,
+        slots: &mut Slots,
+    ) -> Result<Option<String>, Stop> {
+        let child = &set.children[role as usize];
+        let list = set.indices[role as usize].as_ref();
+        if let Some(list) = list.filter(|list| list.count > 0) {
+            let spans = self.alike(set, list, corners)?;
+            let Some(spans) = spans else {
+                let field = role.index_field();
+                return stays(format!("its {field} has other faces than coordIndex"));
+            };
+            slots.polygons.push(spans);
+            return Ok(None);
+        }
+        let numbers_each = if role == Role::TexCoord { 2 } else { 3 };
+        let field = role.field();
+        match child {
+            Child::None => Ok(None),
+            Child::Own(_, values) if !self.is_shared(child) => {
+                if values.count != vertex_count * numbers_each {
+                    return Ok(Some(format!(
+                        "its {field} goes by vertex and has another number of entries"
+                    )));
+                }
+                let mut spans = Spans::new();
+                for span in Groups::new(self.text, values, numbers_each) {
+                    let at = span.start;
+                    spans.push(span).map_err(|kind| Fault { at, kind })?;
+                }
+                slots.vertices.push(spans);
+                Ok(None)
+            }
+            _ => Ok(Some(format!(
+                "its {field} goes by vertex and is shared with another node"
+            ))),
+        }
+    }
+
+    /// The polygons of another list of indices, if they are like those of `coordIndex`.
+    fn alike(
+        &self,
+        set: &FaceSet,
+        list: &List,
+        corners: &mut Corners,
+    ) -> Result<Option<Spans>, Fault> {
+        let first = set.indices[Role::Coord as usize].as_ref();
+        let mut first = Polygons::new(self.text, first.unwrap_or(&List::EMPTY));
+        let mut other = Polygons::new(self.text, list);
+        let mut spans = Spans::new();
+        while first.next()?.is_some() {
+            let Some(polygon) = other.next()? else {
+                return Ok(None);
+            };
+            if other.numbers.len() != first.numbers.len() {
+                return Ok(None);
+            }
+            corners.is_open |= polygon.is_open;
+            let at = polygon.span.start;
+            let pushed = spans.push(polygon.span);
+            pushed.map_err(|kind| Fault { at, kind })?;
+        }
+        Ok(Some(spans))
+    }
+
+    fn shared_positions(&mut self, number: usize) -> Result<&[[f32; 3]], Fault> {
+        let slot = &mut self.shared[number];
+        if slot.is_none() {
+            *slot = Some(positions(self.text, &self.scene.coordinates[number], None)?);
+        }
+        Ok(slot.as_deref().unwrap_or_default())
+    }
+}
+
+/// The mesh of the vertices that its faces name: several face sets may share many points and name
+/// few each.
+fn of_used(points: &[[f32; 3]], mut faces: Vec<[u32; 3]>) -> Result<Mesh, crate::MeshError> {
+    let mut used = faces.as_flattened().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    for vertex in faces.as_flattened_mut() {
+        *vertex = index32(used.partition_point(|&other| other < *vertex));
+    }
+    let positions = used.iter().map(|&vertex| points[vertex as usize]);
+    Mesh::new(positions.collect::<Vec<_>>(), faces)
+}
+
+/// What `coordIndex` holds.
+struct Corners {
+    records: FaceRecords,
+    spans: Spans,
+    /// Whether the last polygon of some list has no -1 behind it.
+    is_open: bool,
+    has_empty: bool,
+}

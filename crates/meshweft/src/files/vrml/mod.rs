@@ -1,0 +1,257 @@
+//! VRML97 (VRML 2.0): the faces and vertices of every `IndexedFaceSet` move.
+//!
+//! Four choices stand behind what is done here:
+//!
+//! - A face record is the numbers of a polygon with its -1, wherever lines end. The polygons of
+//!   `texCoordIndex`, `colorIndex` and `normalIndex` go along, and what goes by face (indices, or
+//!   colors and normals themselves) too.
+//! - Vertices are renumbered with all that `coordIndex` numbers: the points, and colors, normals
+//!   and texture coordinates that have no indices of their own.
+//! - What something else may read by number stays, with a note: lists that a `USE` or a `ROUTE`
+//!   names, fields that are one of a `PROTO`, everything if a `Script` is handed nodes.
+//! - A face set whose `coord` is a `USE` has the vertices that its own faces name. They stay.
+
+mod bindings;
+mod fields;
+mod lexer;
+mod lists;
+mod nodes;
+mod scene;
+
+use std::io;
+use std::ops::Range;
+use std::path::Path;
+
+use super::error::{FileErrorKind, Place, Problem};
+use super::splice::{Change, Layer, Orders, record_in, splice};
+use super::text::{is_line_end, push_number};
+use super::{Content, MeshEntry, Note, OutputFile, ReadResult};
+use crate::limits::Limits;
+use crate::permutation::{FaceOrder, VertexOrder};
+use bindings::{Binder, Slots, Stop};
+use lexer::{Lexer, index};
+
+/// Reads a VRML file.
+///
+/// Time O(bytes), but for names and vertices of shared coordinates that are sorted; memory a few
+/// times the bytes, and less than 2 KiB for each face set.
+pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
+    let at = header(&bytes)?;
+    let scene = nodes::read(&bytes, at, limits).map_err(|fault| fault.problem(&bytes))?;
+    let mut binder = Binder {
+        text: &bytes,
+        scene: &scene,
+        limits,
+        shared: vec![None; scene.coordinates.len()],
+    };
+    let (mut entries, mut sets, mut notes) = (Vec::new(), Vec::new(), Vec::new());
+    let mut lines = Lines {
+        text: &bytes,
+        at: 0,
+        line: 1,
+    };
+    for (number, set) in scene.face_sets.iter().enumerate() {
+        let mut note = |text| {
+            let place = Place::Line(lines.line_of(set.span.start));
+            notes.push(Note { place, text });
+        };
+        match binder.bind(set, number) {
+            Ok(bound) => {
+                if let Some(why) = bound.vertices_stay {
+                    note(format!("the vertices stay where they are: {why}"));
+                }
+                let mut entry = bound.entry;
+                entry.vertex_group = entries.len();
+                entries.push(entry);
+                sets.push(Set {
+                    span: set.span.clone(),
+                    slots: bound.slots,
+                    orders: Orders::default(),
+                });
+            }
+            Err(Stop::Stays(why)) => note(format!("the mesh stays as it is: {why}")),
+            Err(Stop::Fault(fault)) => return Err(fault.problem(&bytes)),
+        }
+    }
+    if entries.is_empty() && notes.is_empty() {
+        let text = "no faces: there is nothing to order".into();
+        let place = Place::File;
+        notes.push(Note { place, text });
+    }
+    let file = VrmlFile {
+        source: bytes,
+        sets,
+        entries,
+    };
+    Ok((Box::new(file), notes))
+}
+
+/// Checks the first line; where it ends.
+fn header(bytes: &[u8]) -> Result<usize, Problem> {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mark = bytes.len() - text.len();
+    let known = b"#VRML V2.0";
+    if text.starts_with(known) {
+        // The header is a comment like any other.
+        return Ok(mark);
+    }
+    let trimmed = text.trim_ascii_start();
+    let kind = if text.starts_with(b"#VRML V1") || text.starts_with(b"#Inventor") {
+        FileErrorKind::unsupported(
+            "VRML 1.0 and Open Inventor are not read. Convert it to VRML 2.0 (VRML97) first",
+        )
+    } else if text.starts_with(b"#X3D")
+        || [&b"<?xml"[..], b"<X3D", b"<!DOCTYPE"]
+            .iter()
+            .any(|start| trimmed.starts_with(start))
+    {
+        FileErrorKind::unsupported("X3D is not read. Convert it to VRML 2.0 (VRML97) first")
+    } else if known.starts_with(text) {
+        FileErrorKind::truncated("the header: a VRML file starts with #VRML V2.0")
+    } else {
+        FileErrorKind::malformed(
+            "a VRML file starts with #VRML V2.0 and this one does not: is it another format?",
+        )
+    };
+    Err(kind.at(Place::Line(1)))
+}
+
+/// Lines of places that come in the order of the file: together O(bytes).
+struct Lines<'a> {
+    text: &'a [u8],
+    at: usize,
+    line: usize,
+}
+
+impl Lines<'_> {
+    fn line_of(&mut self, offset: usize) -> usize {
+        let stretch = self.at..offset.max(self.at);
+        let ends = stretch.clone().filter(|&at| match self.text[at] {
+            b'\r' => self.text.get(at + 1) != Some(&b'\n'),
+            byte => is_line_end(byte),
+        });
+        self.line += ends.count();
+        self.at = stretch.end;
+        self.line
+    }
+}
+
+/// A face set: its bytes, its records, and the orders they were put in.
+struct Set {
+    span: Range<usize>,
+    slots: Slots,
+    orders: Orders,
+}
+
+struct VrmlFile {
+    source: Vec<u8>,
+    /// In the order of the file; none holds another.
+    sets: Vec<Set>,
+    /// One a set.
+    entries: Vec<MeshEntry>,
+}
+
+impl VrmlFile {
+    fn write(&self, sink: &mut dyn io::Write) -> io::Result<()> {
+        let source = self.source.as_slice();
+        let mut copied = 0;
+        for set in &self.sets {
+            if set.orders.records.is_empty() && set.orders.vertices.is_empty() {
+                continue;
+            }
+            sink.write_all(&source[copied..set.span.start])?;
+            set.write(source, sink)?;
+            copied = set.span.end;
+        }
+        sink.write_all(&source[copied..])
+    }
+}
+
+impl Set {
+    fn write(&self, source: &[u8], sink: &mut dyn io::Write) -> io::Result<()> {
+        let orders = &self.orders;
+        let old_to_new = orders.old_to_new();
+        let old_to_new = old_to_new.as_slice();
+        let mut layers = Vec::new();
+        for (list, spans) in self.slots.polygons.iter().enumerate() {
+            let mut words = Vec::new();
+            layers.push(Layer::new(spans, move |slots, out| {
+                for slot in slots {
+                    let change = Change {
+                        rotation: orders.rotation(slot),
+                        old_to_new: if list == 0 { old_to_new } else { &[] },
+                    };
+                    let record = &source[spans.span(record_in(&orders.records, slot))];
+                    match change.is_nothing() {
+                        true => out.extend_from_slice(record),
+                        false => write_polygon(record, change, &mut words, out),
+                    }
+                }
+            }));
+        }
+        for spans in &self.slots.companions {
+            layers.push(Layer::moved(spans, source, &orders.records));
+        }
+        if !orders.vertices.is_empty() {
+            for spans in &self.slots.vertices {
+                layers.push(Layer::moved(spans, source, &orders.vertices));
+            }
+        }
+        splice(source, self.span.clone(), layers, sink)
+    }
+}
+
+/// Appends a polygon with its corners turned and renumbered; what is between them is copied.
+fn write_polygon(
+    record: &[u8],
+    change: Change<'_>,
+    words: &mut Vec<Range<usize>>,
+    out: &mut Vec<u8>,
+) {
+    words.clear();
+    let mut lexer = Lexer::new(record, 0);
+    words.extend(std::iter::from_fn(|| lexer.word()));
+    let is_closed = words
+        .last()
+        .is_some_and(|last| index(&record[last.clone()]) == Some(-1));
+    words.truncate(words.len() - usize::from(is_closed));
+    let mut copied = 0;
+    for (corner, slot) in words.iter().enumerate() {
+        out.extend_from_slice(&record[copied..slot.start]);
+        copied = slot.end;
+        let token = &record[words[change.turned(corner, words.len())].clone()];
+        let renewed = index(token).and_then(|number| {
+            let old = usize::try_from(number).ok()?;
+            let new = *change.old_to_new.get(old)?;
+            (new as usize != old).then_some(new)
+        });
+        match renewed {
+            Some(new) => push_number(out, u64::from(new)),
+            None => out.extend_from_slice(token),
+        }
+    }
+    out.extend_from_slice(&record[copied..]);
+}
+
+impl Content for VrmlFile {
+    fn meshes(&self) -> &[MeshEntry] {
+        &self.entries
+    }
+
+    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {
+        let (entry, orders) = (&mut self.entries[mesh], &mut self.sets[mesh].orders);
+        orders.add_faces(faces);
+        entry.apply_faces(faces);
+        if let Some(vertices) = vertices {
+            orders.add_vertices(vertices);
+            entry.apply_vertices(vertices);
+        }
+    }
+
+    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem> {
+        Ok(vec![OutputFile {
+            path: path.to_owned(),
+            write: Box::new(|sink| self.write(sink)),
+        }])
+    }
+}

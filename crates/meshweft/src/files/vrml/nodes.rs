@@ -1,0 +1,341 @@
+//! Finds the face sets of a VRML97 file.
+//!
+//! The file is read as nested nodes without knowing what most of them mean: a word in front of a
+//! `{` is the type of a node. Only the fields of a face set, and the lists in the nodes that hang
+//! on it, are looked at.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::lexer::{Fault, Lexer, Token};
+use super::scene::{Child, FaceSet, List, Role, Scene};
+use crate::files::error::FileErrorKind;
+use crate::files::text::shown;
+use crate::limits::Limits;
+
+/// Reads the nodes of `text` from `at` on.
+///
+/// Time O(bytes).
+pub(super) fn read<'a>(text: &'a [u8], at: usize, limits: &Limits) -> Result<Scene<'a>, Fault> {
+    let mut reader = Reader {
+        text,
+        nesting: limits.nesting,
+        lexer: Lexer::new(text, at),
+        scene: Scene::default(),
+        frames: Vec::new(),
+        scopes: vec![HashMap::new()],
+        name: None,
+        word: None,
+        protos: 0,
+    };
+    while let Some(token) = reader.lexer.token()? {
+        reader.token(token)?;
+    }
+    if let Some(frame) = reader.frames.last() {
+        let what = match frame.close {
+            b'}' => "a node: there is no }",
+            _ => "a list: there is no ]",
+        };
+        let kind = FileErrorKind::truncated(format!("{what} for what is opened here"));
+        return Err(Fault { at: frame.at, kind });
+    }
+    let mut scene = reader.scene;
+    scene.face_sets.sort_by_key(|set| set.span.start);
+    Ok(scene)
+}
+
+/// What is open.
+struct Frame {
+    at: usize,
+    close: u8,
+    /// The name of the nearest node with one.
+    name: Option<Range<usize>>,
+    kind: Kind,
+}
+
+enum Kind {
+    Other,
+    Script,
+    /// The interface of a `PROTO`; its body follows.
+    Interface,
+    Body,
+    FaceSet(Box<FaceSet>, Option<Role>),
+    /// A node with a list that is looked at; on a face set unless it is a `Coordinate` elsewhere.
+    Points {
+        role: Role,
+        on_face_set: bool,
+        own_name: Option<Range<usize>>,
+        list: Option<List>,
+        /// There is something else in it.
+        is_odd: bool,
+    },
+}
+
+pub(super) struct Reader<'a> {
+    pub(super) text: &'a [u8],
+    pub(super) lexer: Lexer<'a>,
+    pub(super) scene: Scene<'a>,
+    /// Most brackets inside each other.
+    nesting: usize,
+    frames: Vec<Frame>,
+    /// The coordinates by name, and names of other nodes; a `PROTO` has names of its own.
+    scopes: Vec<HashMap<&'a [u8], Option<usize>>>,
+    /// The name of the node that comes next.
+    name: Option<Range<usize>>,
+    /// The word just read.
+    pub(super) word: Option<Range<usize>>,
+    protos: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn token(&mut self, token: Token) -> Result<(), Fault> {
+        let word = self.word.take();
+        match token {
+            Token::Word(span) => self.keyword(span),
+            Token::Text(_) => {
+                self.odd("a string");
+                Ok(())
+            }
+            Token::Mark(b'{', at) => {
+                let node = word.ok_or_else(|| {
+                    Fault::malformed(at, "a { without the type of a node in front of it")
+                })?;
+                self.open_node(node)
+            }
+            Token::Mark(b'[', at) => {
+                self.odd("a list");
+                self.open(at, b']', None, Kind::Other)
+            }
+            Token::Mark(mark, at) => self.close(mark, at),
+        }
+    }
+
+    fn keyword(&mut self, span: Range<usize>) -> Result<(), Fault> {
+        match &self.text[span.clone()] {
+            b"DEF" => {
+                let name = self.name_behind("DEF")?;
+                if let Some(scope) = self.scopes.last_mut()
+                    && let Some(coordinates) = scope.get_mut(&self.text[name.clone()])
+                {
+                    *coordinates = None;
+                }
+                self.name = Some(name);
+            }
+            b"USE" => {
+                let name = self.name_behind("USE")?;
+                let name = &self.text[name];
+                self.scene.used.insert(name);
+                let scope = self.scopes.last();
+                let coordinates = scope.and_then(|scope| scope.get(name).copied().flatten());
+                self.child(Child::Used(coordinates));
+            }
+            b"NULL" => self.child(Child::None),
+            b"IS" => {
+                self.name_behind("IS")?;
+                self.odd("IS");
+            }
+            b"ROUTE" => self.route(span.start)?,
+            b"PROTO" => {
+                self.odd("PROTO");
+                self.name_behind("PROTO")?;
+                match self.lexer.token()? {
+                    Some(Token::Mark(b'[', at)) => self.open(at, b']', None, Kind::Interface)?,
+                    _ => {
+                        let text = "a PROTO without the [ of its interface";
+                        return Err(Fault::malformed(span.start, text));
+                    }
+                }
+            }
+            _ => return self.word(span),
+        }
+        Ok(())
+    }
+
+    /// A word that means the same only in some nodes.
+    fn word(&mut self, span: Range<usize>) -> Result<(), Fault> {
+        let word = &self.text[span.clone()];
+        let Some(frame) = self.frames.last_mut() else {
+            self.word = Some(span);
+            return Ok(());
+        };
+        match &mut frame.kind {
+            Kind::Script if matches!(word, b"SFNode" | b"MFNode") => {
+                self.scene.script_reads_nodes = true;
+            }
+            Kind::Points { role, .. } => {
+                let role = *role;
+                if word == role.names()[2].as_bytes() {
+                    let found = self.list(span)?;
+                    if let Some(Frame {
+                        kind: Kind::Points { list, is_odd, .. },
+                        ..
+                    }) = self.frames.last_mut()
+                    {
+                        *is_odd |= found.is_none() || list.is_some();
+                        *list = found;
+                    }
+                    return Ok(());
+                }
+                self.odd("another field");
+            }
+            Kind::FaceSet(..) => return self.face_set_word(span),
+            _ => {}
+        }
+        self.word = Some(span);
+        Ok(())
+    }
+
+    /// The face set whose fields are being read, and the field that waits for its node.
+    pub(super) fn face_set(&mut self) -> Option<(&mut FaceSet, &mut Option<Role>)> {
+        match &mut self.frames.last_mut()?.kind {
+            Kind::FaceSet(set, role) => Some((set, role)),
+            _ => None,
+        }
+    }
+
+    /// Gives the face set its node, if it waits for one.
+    fn child(&mut self, child: Child) {
+        self.name = None;
+        if let Some((set, role)) = self.face_set() {
+            match role.take() {
+                Some(role) => set.hang(role, child),
+                None => set.obstacle("it holds a node in no field that is known"),
+            }
+        } else {
+            self.odd("a node");
+        }
+    }
+
+    /// Notes that the face set, or a node that hangs on it, holds what is not understood.
+    fn odd(&mut self, what: &str) {
+        match self.frames.last_mut().map(|frame| &mut frame.kind) {
+            Some(Kind::FaceSet(set, _)) => set.obstacle(format!("{what} stands in it")),
+            Some(Kind::Points { is_odd, .. }) => *is_odd = true,
+            _ => {}
+        }
+    }
+
+    fn open_node(&mut self, node: Range<usize>) -> Result<(), Fault> {
+        let own_name = self.name.take();
+        let around = self.frames.last().and_then(|frame| frame.name.clone());
+        let name = own_name.clone().or(around);
+        let at = node.start;
+        let kind = &self.text[node];
+        let waiting = self.face_set().map(|(_, role)| role.take());
+        let points = |role, on_face_set, own_name| Kind::Points {
+            role,
+            on_face_set,
+            own_name,
+            list: None,
+            is_odd: false,
+        };
+        if waiting.is_none() {
+            self.odd("a node");
+        }
+        let kind = match (waiting, kind) {
+            (Some(Some(role)), kind) if kind == role.names()[1].as_bytes() => {
+                points(role, true, own_name)
+            }
+            (Some(_), other) => {
+                self.odd(&format!("a node of type {}", shown(other)));
+                Kind::Other
+            }
+            (None, b"IndexedFaceSet") => {
+                let set = FaceSet {
+                    span: at..at,
+                    own_name,
+                    name: name.clone(),
+                    in_proto: self.protos > 0,
+                    ..FaceSet::default()
+                };
+                Kind::FaceSet(Box::new(set), None)
+            }
+            (None, b"Coordinate") => points(Role::Coord, false, own_name),
+            (None, b"Script") => Kind::Script,
+            (None, _) => Kind::Other,
+        };
+        self.open(at, b'}', name, kind)
+    }
+
+    fn open(
+        &mut self,
+        at: usize,
+        close: u8,
+        name: Option<Range<usize>>,
+        kind: Kind,
+    ) -> Result<(), Fault> {
+        if self.frames.len() >= self.nesting {
+            let kind = FileErrorKind::OverLimit {
+                what: "nodes and lists inside each other",
+                found: self.frames.len() as u64 + 1,
+                limit: self.nesting as u64,
+            };
+            return Err(Fault { at, kind });
+        }
+        // A list within a node does not hide the name of the node.
+        let name = name.or_else(|| self.frames.last().and_then(|frame| frame.name.clone()));
+        self.frames.push(Frame {
+            at,
+            close,
+            name,
+            kind,
+        });
+        Ok(())
+    }
+
+    fn close(&mut self, mark: u8, at: usize) -> Result<(), Fault> {
+        let frame = self.frames.pop().filter(|frame| frame.close == mark);
+        let Some(frame) = frame else {
+            let text = format!("a {} that closes nothing", char::from(mark));
+            return Err(Fault::malformed(at, text));
+        };
+        match frame.kind {
+            Kind::Interface => match self.lexer.token()? {
+                Some(Token::Mark(b'{', at)) => {
+                    self.protos += 1;
+                    self.scopes.push(HashMap::new());
+                    self.open(at, b'}', None, Kind::Body)?;
+                }
+                _ => return Err(Fault::malformed(at, "a PROTO without the { of its body")),
+            },
+            Kind::Body => {
+                self.protos -= 1;
+                self.scopes.pop();
+            }
+            Kind::FaceSet(mut set, _) => {
+                set.span.end = at + 1;
+                let corners = &set.indices[Role::Coord as usize];
+                let has_faces = corners.as_ref().is_some_and(|list| list.count > 0);
+                if has_faces || set.obstacle.is_some() {
+                    self.scene.face_sets.push(*set);
+                }
+            }
+            Kind::Points {
+                role,
+                on_face_set,
+                own_name,
+                list,
+                is_odd,
+            } => {
+                let list = list.unwrap_or(List::EMPTY);
+                if role == Role::Coord
+                    && let Some(name) = &own_name
+                    && let Some(scope) = self.scopes.last_mut()
+                    && !is_odd
+                {
+                    scope.insert(&self.text[name.clone()], Some(self.scene.coordinates.len()));
+                    self.scene.coordinates.push(list.clone());
+                }
+                if let Some((set, _)) = self.face_set().filter(|_| on_face_set) {
+                    if is_odd {
+                        let field = role.field();
+                        set.obstacle(format!("its {field} holds more than a list of numbers"));
+                    }
+                    set.hang(role, Child::Own(own_name, list));
+                }
+            }
+            Kind::Other | Kind::Script => {}
+        }
+        Ok(())
+    }
+}
