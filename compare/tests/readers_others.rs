@@ -187,7 +187,7 @@ fn unzipped(file: &Path) -> Vec<u8> {
 
 /// The file's bytes with all faces and vertices in another order.
 fn reordered(file: &Path) -> Vec<u8> {
-    let mut document = Document::open(file, &Limits::default()).unwrap();
+    let mut document = Document::open(file, Limits::default()).unwrap();
     for mesh in 0..document.meshes().len() {
         let mut entry = document.meshes()[mesh].clone();
         let algorithm = KCacheReorder {

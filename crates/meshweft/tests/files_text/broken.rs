@@ -40,13 +40,13 @@ fn a_broken_file_says_what_where_and_what_to_do() {
     let cut = "Fetch or export it again: it is incomplete";
     let head = format!("{PLY_HEAD}end_header\n");
     let cases: Vec<(String, Format, String)> = vec![
-        ("v 0 0 0\n\nf 1 1 9\n".into(), obj, format!("line 3: face 0, corner 2: index 9 is past the last vertex (1)")),
-        ("f 1 2 3\n".into(), obj, format!("line 1: face 0, corner 0: index 1, but the file has no vertices")),
+        ("v 0 0 0\n\nf 1 1 9\n".into(), obj, "line 3: face 0, corner 2: index 9 is past the last vertex (1)".to_string()),
+        ("f 1 2 3\n".into(), obj, "line 1: face 0, corner 0: index 1, but the file has no vertices".to_string()),
         ("v 0 0 0\nf 1 0 1\n".into(), obj, "line 2: face 0, corner 1: index 0: vertices are counted from 1 (or back from -1)".into()),
         ("v 0 0 0\nf 1 1 1\nf 1 -2 1\n".into(), obj, "line 3: face 1, corner 1: index -2 counts back past the first of the 1 vertices above it".into()),
         ("v 0 0 0\nf 1 99999999999999999999 1\n".into(), obj, "line 2: face 0, corner 1: \"99999999999999999999\" is not a vertex number".into()),
         ("v 0 0 0\nf 1/2/3/4 1 1\n".into(), obj, "line 2: face 0, corner 0: \"1/2/3/4\" is not of the form 1/2/3".into()),
-        ("v 0 0 0\nl 1 5\n".into(), obj, format!("line 2: line or point 0, corner 1: index 5 is past the last vertex (1)")),
+        ("v 0 0 0\nl 1 5\n".into(), obj, "line 2: line or point 0, corner 1: index 5 is past the last vertex (1)".to_string()),
         ("v 0 0\n".into(), obj, "line 1: vertex 1 has 2 coordinates and needs 3".into()),
         ("v 0 0 0 \\ \n".into(), obj, "line 1: a \\ at the end that is not followed by a line end: remove it".into()),
         ("\rv 0 zero 0\n".into(), obj, "line 2: \"zero\" is not a coordinate: write a number".into()),
@@ -58,7 +58,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ("OFF\n2 1 0\n0 0 0\n0 0\n".into(), off, "line 4: vertex 1 has 2 numbers on its line and needs 3".into()),
         ("OFF\n2 1 0\n0 0 0\n".into(), off, format!("line 4: the file ends inside vertex 1 of 2. {cut}")),
         ("OFF\n1 1 0\n0 0 0\n3 0 0\n".into(), off, "line 4: face 0 has 2 corners on its line, not the 3 it says".into()),
-        ("OFF\n1 1 0\n0 0 0\n3 0 -1 0\n".into(), off, format!("line 4: face 0, corner 1: index -1 is below zero")),
+        ("OFF\n1 1 0\n0 0 0\n3 0 -1 0\n".into(), off, "line 4: face 0, corner 1: index -1 is below zero".to_string()),
         ("OFF\n1 1 0\n0 0 0\n3 0 1X 0\n".into(), off, "line 4: face 0, corner 1: \"1X\" is not a vertex number".into()),
         (String::new(), ply, "line 1: a PLY file starts with the word ply: is it another format?".into()),
         ("ply\nformat ascii 1.0\n".into(), ply, format!("line 3: the file ends inside the header: there is no end_header. {cut}")),
@@ -66,7 +66,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ("ply\nformat ascii 1.0\nelement face 1\nproperty int a\nend_header\n".into(), ply, "line 3: the faces have no list vertex_indices or vertex_index: their corners are not known".into()),
         (format!("{head}0 0 0\n1 0 0\n"), ply, format!("line 12: the file ends inside vertex 2 of 3. {cut}")),
         (format!("{head}0 0 0\n1 0 0\n0 1 0 0\n"), ply, "line 12: vertex 2: more values on its line than the header declares".into()),
-        (format!("{head}{}", PLY_ROWS.replace("3 2 1 0", "3 2 1 3")), ply, format!("line 14: face 1, corner 2: index 3 is past the last vertex (2)")),
+        (format!("{head}{}", PLY_ROWS.replace("3 2 1 0", "3 2 1 3")), ply, "line 14: face 1, corner 2: index 3 is past the last vertex (2)".to_string()),
         (format!("{head}{}", PLY_ROWS.replace("3 2 1 0", "-1 2 1 3")), ply, "line 14: face 1: a list of -1 entries".into()),
     ];
     for (text, format, expected) in cases {

@@ -76,15 +76,15 @@ fn a_broken_file_says_what_where_and_what_to_do() {
     let cases = [
         (
             set("0 0 0", "0 0 0 -1\n0 9 0 -1"),
-            format!("line 5: face 1, corner 1: index 9 is past the last vertex (0)"),
+            "line 5: face 1, corner 1: index 9 is past the last vertex (0)".to_string(),
         ),
         (
             set("0 0 0", "0 -2 0"),
-            format!("line 4: face 0, corner 1: index -2 is below zero"),
+            "line 4: face 0, corner 1: index -2 is below zero".to_string(),
         ),
         (
             set("", "0 0 0"),
-            format!("line 4: face 0, corner 0: index 0, but the file has no vertices"),
+            "line 4: face 0, corner 0: index 0, but the file has no vertices".to_string(),
         ),
         (
             set("0 0 0", "0 0.5 0"),
