@@ -59,9 +59,6 @@ impl Binder<'_> {
     ///
     /// Time O(bytes of its lists, and of the coordinates it shares when they are read first).
     pub(super) fn bind(&mut self, set: &FaceSet, number: usize) -> Result<Bound, Stop> {
-        if let Some(obstacle) = &set.obstacle {
-            return stays(&**obstacle);
-        }
         if self.scene.script_reads_nodes {
             return stays("a Script that is handed nodes may read it by number");
         }

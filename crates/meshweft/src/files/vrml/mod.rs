@@ -44,17 +44,12 @@ pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
         limits,
         shared: vec![None; scene.coordinates.len()],
     };
-    let (mut entries, mut sets, mut notes) = (Vec::new(), Vec::new(), Vec::new());
-    let mut lines = Lines {
-        text: &bytes,
-        at: 0,
-        line: 1,
-    };
+    let (mut entries, mut sets) = (Vec::new(), Vec::new());
+    let stays = |why: &str| format!("the mesh stays as it is: {why}");
+    let refused = scene.refused.iter().map(|(at, why)| (*at, stays(why)));
+    let mut said: Vec<(usize, String)> = refused.collect();
     for (number, set) in scene.face_sets.iter().enumerate() {
-        let mut note = |text| {
-            let place = Place::Line(lines.line_of(set.span.start));
-            notes.push(Note { place, text });
-        };
+        let mut note = |text| said.push((set.span.start, text));
         match binder.bind(set, number) {
             Ok(bound) => {
                 if let Some(why) = bound.vertices_stay {
@@ -69,10 +64,11 @@ pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
                     orders: Orders::default(),
                 });
             }
-            Err(Stop::Stays(why)) => note(format!("the mesh stays as it is: {why}")),
+            Err(Stop::Stays(why)) => note(stays(&why)),
             Err(Stop::Fault(fault)) => return Err(fault.problem(&bytes)),
         }
     }
+    let mut notes = notes(&bytes, said);
     if entries.is_empty() && notes.is_empty() {
         let text = "no faces: there is nothing to order".into();
         let place = Place::File;
@@ -116,24 +112,23 @@ fn header(bytes: &[u8]) -> Result<usize, Problem> {
     Err(kind.at(Place::Line(1)))
 }
 
-/// Lines of places that come in the order of the file: together O(bytes).
-struct Lines<'a> {
-    text: &'a [u8],
-    at: usize,
-    line: usize,
-}
-
-impl Lines<'_> {
-    fn line_of(&mut self, offset: usize) -> usize {
-        let stretch = self.at..offset.max(self.at);
-        let ends = stretch.clone().filter(|&at| match self.text[at] {
-            b'\r' => self.text.get(at + 1) != Some(&b'\n'),
+/// What is said of places in the text, in their order. The lines are counted once for all.
+fn notes(text: &[u8], mut said: Vec<(usize, String)>) -> Vec<Note> {
+    said.sort_by_key(|&(at, _)| at);
+    let (mut counted, mut line) = (0, 1);
+    let notes = said.into_iter().map(|(at, said)| {
+        let ends = (counted..at).filter(|&byte| match text[byte] {
+            b'\r' => text.get(byte + 1) != Some(&b'\n'),
             byte => is_line_end(byte),
         });
-        self.line += ends.count();
-        self.at = stretch.end;
-        self.line
-    }
+        line += ends.count();
+        counted = at;
+        Note {
+            place: Place::Line(line),
+            text: said,
+        }
+    });
+    notes.collect()
 }
 
 /// A face set: its bytes, its records, and the orders they were put in.

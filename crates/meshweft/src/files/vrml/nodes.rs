@@ -39,9 +39,7 @@ pub(super) fn read<'a>(text: &'a [u8], at: usize, limits: &Limits) -> Result<Sce
         let kind = FileErrorKind::truncated(format!("{what} for what is opened here"));
         return Err(Fault { at: frame.at, kind });
     }
-    let mut scene = reader.scene;
-    scene.face_sets.sort_by_key(|set| set.span.start);
-    Ok(scene)
+    Ok(reader.scene)
 }
 
 /// What is open.
@@ -306,8 +304,10 @@ impl<'a> Reader<'a> {
                 set.span.end = at + 1;
                 let corners = &set.indices[Role::Coord as usize];
                 let has_faces = corners.as_ref().is_some_and(|list| list.count > 0);
-                if has_faces || set.obstacle.is_some() {
-                    self.scene.face_sets.push(*set);
+                match set.obstacle.take() {
+                    Some(why) => self.scene.refused.push((set.span.start, why)),
+                    None if has_faces => self.scene.face_sets.push(*set),
+                    None => {}
                 }
             }
             Kind::Points {

@@ -77,7 +77,7 @@ pub(super) struct FaceSet {
     pub(super) normal_per_face: bool,
     pub(super) color_per_face: bool,
     pub(super) in_proto: bool,
-    /// Why it cannot be ordered.
+    /// Why it cannot be ordered, while it is being read.
     pub(super) obstacle: Option<Box<str>>,
 }
 
@@ -99,8 +99,10 @@ impl FaceSet {
 /// What a file holds.
 #[derive(Debug, Default)]
 pub(super) struct Scene<'a> {
-    /// In the order of the file.
+    /// Those that may be ordered, in the order of the file; none holds another.
     pub(super) face_sets: Vec<FaceSet>,
+    /// Where the others start, and why they cannot be ordered.
+    pub(super) refused: Vec<(usize, Box<str>)>,
     /// The lists of all `Coordinate` nodes with a name.
     pub(super) coordinates: Vec<List>,
     /// The names behind `USE`. Only looked up, as all tables of names here.
