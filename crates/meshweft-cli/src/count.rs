@@ -1,5 +1,7 @@
 //! Counting misses of the meshes of a file.
 
+use std::collections::BTreeMap;
+
 use meshweft::files::MeshEntry;
 use meshweft::{CacheModel, Mesh, cache};
 use serde_json::{Map, Value, json};
@@ -46,19 +48,15 @@ impl Counts {
             misses: models.iter().map(|&model| (model, 0)).collect(),
             ..Self::default()
         };
-        let mut groups: Vec<(usize, Vec<bool>)> = Vec::new();
+        let mut groups: BTreeMap<usize, Vec<bool>> = BTreeMap::new();
         let mut fetched = 0.0;
         for (entry, count) in entries.iter().zip(counts) {
-            let group = groups
-                .iter()
-                .position(|(group, _)| *group == entry.vertex_group);
-            let group = group.unwrap_or_else(|| {
+            let group = groups.entry(entry.vertex_group).or_insert_with(|| {
                 total.vertices += count.vertices;
-                groups.push((entry.vertex_group, vec![false; count.vertices]));
-                groups.len() - 1
+                vec![false; count.vertices]
             });
             for &vertex in entry.mesh.faces().iter().flatten() {
-                let used = &mut groups[group].1[vertex as usize];
+                let used = &mut group[vertex as usize];
                 total.used_vertices += usize::from(!std::mem::replace(used, true));
             }
             total.faces += count.faces;

@@ -86,14 +86,17 @@ fn text(document: &Document, counts: &[Counts], total: &Counts) -> String {
 
 /// Rows as lines, the first column to the left, the others to the right.
 pub(crate) fn columns(rows: &[Vec<String>]) -> String {
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.get(column));
-        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
+    let mut widths = Vec::new();
+    for row in rows {
+        widths.resize(row.len().max(widths.len()), 0);
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
     let line = |row: &Vec<String>| {
         let cell = |(column, cell): (usize, &String)| match column {
-            0 => format!("{cell:<0$}", width(0)),
-            _ => format!("  {cell:>0$}", width(column)),
+            0 => format!("{cell:<0$}", widths[0]),
+            _ => format!("  {cell:>0$}", widths[column]),
         };
         let line: String = row.iter().enumerate().map(cell).collect();
         line.trim_end().to_owned()

@@ -39,28 +39,20 @@ impl Report {
     }
 }
 
-/// What a file's reader leaves as it is, a line each: what holds for many places is said once, at
-/// the first.
+/// What a file's reader leaves as it is, a line each.
 pub(crate) fn note_lines(document: &Document) -> Vec<String> {
-    let mut said: Vec<(&Note, usize)> = Vec::new();
-    for note in document.notes() {
-        match said.iter_mut().find(|(first, _)| first.text == note.text) {
-            Some((_, more)) => *more += 1,
-            None => said.push((note, 0)),
-        }
-    }
-    let line = |(note, more): (&Note, usize)| {
+    let line = |note: &Note| {
         let place = match place(&note.place) {
             place if place.is_empty() => place,
             place => format!("{place}: "),
         };
-        let more = match more {
+        let more = match note.more {
             0 => String::new(),
             more => format!(" (and {more} more like it)"),
         };
         format!("{}: {place}{}{more}", document.path().display(), note.text)
     };
-    said.into_iter().map(line).collect()
+    document.notes().iter().map(line).collect()
 }
 
 /// A bar for work on several files, on standard error if that is a terminal.
@@ -79,7 +71,7 @@ pub(crate) fn progress(files: usize, report: &Report) -> ProgressBar {
 pub(crate) fn notes_json(document: &Document) -> Value {
     let notes = document.notes().iter();
     notes
-        .map(|note| json!({"place": place(&note.place), "text": note.text}))
+        .map(|note| json!({"place": place(&note.place), "text": note.text, "more": note.more}))
         .collect()
 }
 

@@ -127,6 +127,7 @@ impl Mesh {
     }
 
     /// As [`with_face_order`](Self::with_face_order), without a copy of the positions.
+    #[cfg(feature = "files")]
     pub(crate) fn into_face_order(self, order: &FaceOrder) -> Self {
         Self {
             faces: order.apply(&self.faces),
@@ -135,6 +136,7 @@ impl Mesh {
     }
 
     /// As [`with_vertex_order`](Self::with_vertex_order), the faces renumbered where they are.
+    #[cfg(feature = "files")]
     pub(crate) fn into_vertex_order(mut self, order: &VertexOrder) -> Self {
         if !self.positions.is_empty() {
             self.positions = order.permutation().apply(&self.positions);

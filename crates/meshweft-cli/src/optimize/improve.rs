@@ -1,5 +1,6 @@
 //! Better orders for the meshes of a file, found before the file is touched.
 
+use std::collections::BTreeMap;
 use std::sync::Mutex;
 
 use anyhow::Result;
@@ -18,8 +19,14 @@ const VERTEX_SIZE: usize = 32;
 /// What is to be done to each mesh and each vertex group.
 pub(super) struct Improvement {
     faces: Vec<FaceChange>,
-    /// By vertex group, with a mesh that has it.
-    vertices: Vec<(usize, usize, VertexOrder)>,
+    /// By vertex group, for those that may move.
+    vertices: BTreeMap<usize, VertexChange>,
+}
+
+struct VertexChange {
+    /// The meshes of the group.
+    members: Vec<usize>,
+    order: VertexOrder,
 }
 
 struct FaceChange {
@@ -97,20 +104,19 @@ fn in_parallel<T: Send>(
     });
 }
 
-/// The groups whose vertices may move, each with its first mesh and an order that moves nothing.
-fn vertex_groups(entries: &[MeshEntry]) -> Vec<(usize, usize, VertexOrder)> {
-    let mut groups: Vec<(usize, usize, VertexOrder)> = Vec::new();
+/// The groups whose vertices may move, each with an order that moves nothing.
+fn vertex_groups(entries: &[MeshEntry]) -> BTreeMap<usize, VertexChange> {
+    let mut groups: BTreeMap<usize, VertexChange> = BTreeMap::new();
     for (i, entry) in entries.iter().enumerate() {
-        let group = entry.vertex_group;
-        if groups.iter().all(|g| g.0 != group) {
-            groups.push((group, i, VertexOrder::identity(entry.mesh.vertex_count())));
-        }
+        let group = groups.entry(entry.vertex_group);
+        let group = group.or_insert_with(|| VertexChange {
+            members: Vec::new(),
+            order: VertexOrder::identity(entry.mesh.vertex_count()),
+        });
+        group.members.push(i);
     }
-    let movable = |group: usize| {
-        let mut members = entries.iter().filter(move |e| e.vertex_group == group);
-        members.all(|e| e.vertices_movable)
-    };
-    groups.retain(|g| movable(g.0));
+    let movable = |group: &VertexChange| group.members.iter().all(|&i| entries[i].vertices_movable);
+    groups.retain(|_, group| movable(group));
     groups
 }
 
@@ -171,9 +177,11 @@ impl Improvement {
     /// fetches less; whether any moved.
     fn improve_vertices(&mut self, entries: &mut [MeshEntry], moved: &[bool]) -> bool {
         let mut changed = false;
-        for (group, _, total) in &mut self.vertices {
-            let members = || (0..moved.len()).filter(|&i| entries[i].vertex_group == *group);
-            let members: Vec<usize> = members().collect();
+        for VertexChange {
+            members,
+            order: total,
+        } in self.vertices.values_mut()
+        {
             let faces = |entries: &[MeshEntry]| -> Vec<[u32; 3]> {
                 let all = members.iter().flat_map(|&i| entries[i].mesh.faces());
                 all.copied().collect()
@@ -188,7 +196,7 @@ impl Improvement {
             if !faces_moved && overfetch(&order.renumber(&now)) >= overfetch(&now) {
                 continue;
             }
-            for &i in &members {
+            for &i in members.iter() {
                 entries[i].apply_vertices(&order);
             }
             *total = total.then(&order);
@@ -204,10 +212,10 @@ impl Improvement {
                 document.apply(i, &change.order, None)?;
             }
         }
-        for (_, mesh, order) in &self.vertices {
+        for VertexChange { members, order } in self.vertices.values() {
             if !order.is_identity() {
-                let still = FaceOrder::identity(document.meshes()[*mesh].record_count());
-                document.apply(*mesh, &still, Some(order))?;
+                let still = FaceOrder::identity(document.meshes()[members[0]].record_count());
+                document.apply(members[0], &still, Some(order))?;
             }
         }
         Ok(())
@@ -216,11 +224,8 @@ impl Improvement {
     /// Whether anything is moved.
     pub(super) fn changes(&self) -> bool {
         let faces = self.faces.iter().any(|change| !change.order.is_identity());
-        faces
-            || self
-                .vertices
-                .iter()
-                .any(|(_, _, order)| !order.is_identity())
+        let mut vertices = self.vertices.values();
+        faces || vertices.any(|change| !change.order.is_identity())
     }
 
     /// Whether faces of this mesh are moved or turned.
@@ -235,8 +240,8 @@ impl Improvement {
     }
 
     fn vertex_order(&self, entry: &MeshEntry) -> Option<&VertexOrder> {
-        let group = self.vertices.iter().find(|g| g.0 == entry.vertex_group);
-        group.map(|(_, _, order)| order)
+        let group = self.vertices.get(&entry.vertex_group);
+        group.map(|change| &change.order)
     }
 
     /// Why the faces of this mesh stay.

@@ -88,11 +88,25 @@ impl fmt::Display for Format {
 
 /// Something that was left as it is, and why.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Note {
     /// Where it stands.
     pub place: Place,
     /// What was left and why.
     pub text: String,
+    /// How many further places in the file this holds for.
+    pub more: usize,
+}
+
+impl Note {
+    fn new(place: Place, text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self {
+            place,
+            text,
+            more: 0,
+        }
+    }
 }
 
 /// What a format's reader offers to [`Document`].

@@ -33,9 +33,8 @@ pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
     let (faces, records) = faces(&mut lines, &header, limits)?;
     let (mut entries, mut notes) = (Vec::new(), Vec::new());
     if records.len() == 0 {
-        let text = "no faces: there is nothing to order".into();
-        let place = Place::File;
-        notes.push(Note { place, text });
+        let text = "no faces: there is nothing to order";
+        notes.push(Note::new(Place::File, text));
     } else {
         let mesh = Mesh::new(positions, records.faces);
         let mesh = mesh.map_err(|e| FileErrorKind::malformed(e.to_string()).at(Place::File))?;
@@ -272,8 +271,9 @@ fn faces(
 ) -> Result<(Spans, FaceRecords), Problem> {
     let mut spans = Spans::new();
     let mut records = FaceRecords::default();
-    // "3 0 1 2" and its line end; polygons take more.
-    records.reserve(lines.at_most(header.face_count, 8));
+    // In text each number has something behind it.
+    let left = lines.text.len() - lines.at;
+    records.reserve(lines.at_most(header.face_count, 2), left / 2);
     let mut corners = Vec::new();
     for face in 0..header.face_count {
         let line = lines

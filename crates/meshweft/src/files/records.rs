@@ -115,6 +115,8 @@ pub(super) struct FaceRecords {
     /// See [`MeshEntry::polygons`](super::MeshEntry::polygons); `None` as long as each record is one triangle.
     pub(super) polygons: Option<Vec<u32>>,
     count: usize,
+    /// How many records are to come, as far as that is known.
+    expected: usize,
 }
 
 impl FaceRecords {
@@ -122,9 +124,11 @@ impl FaceRecords {
         self.count
     }
 
-    /// Makes room for `count` triangles.
-    pub(super) fn reserve(&mut self, count: usize) {
-        self.faces.reserve(count);
+    /// Makes room for `count` records that take `bytes` bytes or fewer.
+    pub(super) fn reserve(&mut self, count: usize, bytes: usize) {
+        self.expected = count;
+        // A face is its number of corners and the corners.
+        self.faces.reserve(count.min(bytes / 4));
     }
 
     /// Counts triangles that were added to `faces` past it.
@@ -164,7 +168,9 @@ impl FaceRecords {
             return Ok(());
         }
         if added != 1 && self.polygons.is_none() {
-            self.polygons = Some((0..=index32(self.count)).collect());
+            let mut starts = Vec::with_capacity(self.expected + 1);
+            starts.extend(0..=index32(self.count));
+            self.polygons = Some(starts);
         }
         if let [first, rest @ ..] = corners {
             let fan = rest.windows(2).map(|edge| [*first, edge[0], edge[1]]);

@@ -327,8 +327,8 @@ fn files_made_to_waste_time_do_not() {
         primitives.push(json!({"attributes": {"POSITION": vertices}, "indices": indices}));
     }
     let document = read(builder.glb(&json!([{"primitives": primitives}]), &json!({}))).unwrap();
-    assert_eq!(
-        (document.meshes().len(), document.notes().len()),
-        (0, 10_000)
-    );
+    // Said once for each that another's bytes are shared with.
+    let places: usize = document.notes().iter().map(|note| 1 + note.more).sum();
+    assert_eq!((document.meshes().len(), places), (0, 10_000));
+    assert!(document.notes().len() < 10);
 }

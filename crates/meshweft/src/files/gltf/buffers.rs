@@ -54,8 +54,12 @@ enum Loss {
 #[derive(Default)]
 pub(super) struct Buffers {
     pub(super) storages: Vec<Storage>,
-    /// For each buffer of the JSON its storage.
-    of_buffer: Vec<Result<usize, Loss>>,
+    /// The storage of each buffer of the JSON that has one.
+    of_buffer: BTreeMap<usize, usize>,
+    /// Why others have none, if they name something.
+    losses: BTreeMap<usize, Loss>,
+    /// How many buffers there are.
+    count: usize,
 }
 
 impl Buffers {
@@ -100,7 +104,13 @@ impl Buffers {
                         .clone()
                 }),
             };
-            buffers.of_buffer.push(storage);
+            buffers.count += 1;
+            match storage {
+                Ok(storage) => drop(buffers.of_buffer.insert(number, storage)),
+                // Nothing to remember: there may be very many of these.
+                Err(Loss::NoUri) => {}
+                Err(loss) => drop(buffers.losses.insert(number, loss)),
+            }
         }
         for storage in &mut buffers.storages {
             if is_glb && storage.source != Source::Binary {
@@ -135,10 +145,13 @@ impl Buffers {
 
     /// The storage of a buffer; `user` is the pointer to what names it.
     pub(super) fn storage_of(&self, buffer: usize, user: String) -> Result<usize, Problem> {
-        let count = self.of_buffer.len();
-        match self.of_buffer.get(buffer) {
-            Some(Ok(storage)) => Ok(*storage),
-            Some(Err(loss)) => Err(loss.problem(buffer)),
+        if let Some(&storage) = self.of_buffer.get(&buffer) {
+            return Ok(storage);
+        }
+        let count = self.count;
+        match self.losses.get(&buffer) {
+            Some(loss) => Err(loss.problem(buffer)),
+            None if buffer < count => Err(Loss::NoUri.problem(buffer)),
             None => Err(malformed(
                 user,
                 format!("there is no buffer {buffer}: the file has {count}"),
@@ -148,22 +161,19 @@ impl Buffers {
 
     /// The storage of a buffer, if it has bytes.
     pub(super) fn find(&self, buffer: usize) -> Option<usize> {
-        self.of_buffer.get(buffer)?.as_ref().ok().copied()
+        self.of_buffer.get(&buffer).copied()
     }
 
     /// The external buffers that could not be read, and why.
     pub(super) fn unreadable(&self) -> impl Iterator<Item = (usize, String)> {
-        let lost = self.of_buffer.iter().enumerate();
-        lost.filter_map(|(buffer, storage)| match storage {
-            Ok(_) | Err(Loss::NoUri) => None,
-            Err(loss) => Some((buffer, loss.problem(buffer).kind.to_string())),
-        })
+        let lost = self.losses.iter();
+        lost.map(|(&buffer, loss)| (buffer, loss.problem(buffer).kind.to_string()))
     }
 
     /// The buffers that stand for this storage.
     pub(super) fn buffers_over(&self, storage: usize) -> impl Iterator<Item = usize> {
-        let over = move |found: &Result<usize, Loss>| matches!(found, Ok(s) if *s == storage);
-        (0..self.of_buffer.len()).filter(move |&buffer| over(&self.of_buffer[buffer]))
+        let over = self.of_buffer.iter().filter(move |&(_, &of)| of == storage);
+        over.map(|(&buffer, _)| buffer)
     }
 
     /// The bytes of a storage, for a change.

@@ -2,7 +2,7 @@
 
 use super::accessors::{Accessors, COMPRESSED_VIEW, UNSIGNED_BYTE, UNSIGNED_SHORT};
 use super::json::{Object, Value};
-use super::primitives::{Draft, IndexList, Primitives};
+use super::primitives::{Draft, Primitives};
 use super::records::Records;
 use std::collections::BTreeMap;
 
@@ -79,19 +79,19 @@ impl Claims {
         let mut building = Building::default();
         for (user, draft) in primitives.drafts.iter().enumerate() {
             building.add_draft(user, draft);
-            for &number in &draft.unmoved_sparse {
+            for &number in draft.rare.iter().flat_map(|rare| &rare.unmoved_sparse) {
                 building.take_sparse(accessors, number);
             }
         }
         let mut is_moved = vec![false; accessors.len()];
         for &number in primitives.drafts.iter().flat_map(|draft| &draft.accessors) {
-            if let Some(is_moved) = is_moved.get_mut(number) {
+            if let Some(is_moved) = is_moved.get_mut(number as usize) {
                 *is_moved = true;
             }
         }
         for left in &primitives.left {
             for &number in &left.accessors {
-                building.take_accessor(accessors, number, &left.pointer);
+                building.take_accessor(accessors, number as usize, &left.position.pointer());
             }
         }
         for (number, pointer) in other_users(root) {
@@ -174,27 +174,27 @@ impl Building {
     }
 
     fn add_draft(&mut self, user: usize, draft: &Draft) {
-        let of = |list: &Option<IndexList>| list.as_ref().map(|list| list.records);
-        if let Some(records) = of(&draft.indices) {
-            let stream = self.stream(records, &draft.pointer);
+        let pointer = &draft.position.pointer();
+        if let Some(list) = &draft.indices {
+            let stream = self.stream(list.records, pointer);
             stream.index_users.push(user);
         }
-        if let Some(records) = of(&draft.outline) {
-            let stream = self.stream(records, &draft.pointer);
+        if let Some(list) = draft.outline() {
+            let stream = self.stream(list.records, pointer);
             stream.outline_users.push(user);
         }
         for &records in &draft.vertices {
-            let stream = self.stream(records, &draft.pointer);
+            let stream = self.stream(records, pointer);
             stream.vertex_users.push(user);
         }
-        for sparse in &draft.sparse {
-            let stream = self.stream(sparse.indices, &draft.pointer);
+        for sparse in draft.sparse() {
+            let stream = self.stream(sparse.indices, pointer);
             stream.sparse_index_users.push(user);
-            let stream = self.stream(sparse.values, &draft.pointer);
+            let stream = self.stream(sparse.values, pointer);
             stream.sparse_value_users.push(user);
             // Values that go with two lists of numbers would have to move in two ways.
             if *stream.value_indices.get_or_insert(sparse.indices) != sparse.indices {
-                stream.taken_by.get_or_insert_with(|| draft.pointer.clone());
+                stream.taken_by.get_or_insert_with(|| pointer.clone());
             }
         }
     }

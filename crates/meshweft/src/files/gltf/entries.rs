@@ -7,7 +7,7 @@ use super::claims::Claims;
 use super::groups::{group_numbers, vertex_pin};
 use super::json::malformed;
 use super::patch;
-use super::primitives::{Draft, IndexList, Pin};
+use super::primitives::{Draft, IndexList, Pin, Position, Primitives};
 use super::records::Records;
 use super::sparse::Sparse;
 use crate::Mesh;
@@ -47,23 +47,24 @@ pub(super) struct Entries {
     pub(super) groups: Vec<Group>,
     /// The largest index of each mesh as it was read.
     largest_index: Vec<Option<u32>>,
-    /// Why the vertices of a group stay, and the number of the primitive that comes with it.
-    pub(super) pins: Vec<(usize, Pin)>,
+    /// Why the vertices of a group stay, and the primitive that comes with it.
+    pub(super) pins: Vec<(Position, Pin)>,
 }
 
 impl Entries {
     /// Decodes the faces of every draft and decides which vertices may move.
     pub(super) fn new(
-        drafts: &[Draft],
+        primitives: &Primitives,
         claims: &Claims,
         buffers: &Buffers,
     ) -> Result<Self, Problem> {
+        let drafts = primitives.drafts.as_slice();
         let group_of = group_numbers(drafts, claims);
         let group_count = group_of.iter().max().map_or(0, |&last| last + 1);
         let mut entries = Self::default();
         entries.groups.resize_with(group_count, Group::default);
         let mut first_of_group = vec![None; group_count];
-        let mut pins: Vec<Option<(usize, Pin)>> = vec![None; group_count];
+        let mut pins: Vec<Option<(Position, Pin)>> = vec![None; group_count];
         let mut entry_of = BTreeMap::new();
         let mut looked_through = BTreeSet::new();
         // Copies of positions take no more memory than the file, however often they are shared.
@@ -72,7 +73,7 @@ impl Entries {
         for (draft, &group) in drafts.iter().zip(&group_of) {
             let count = *first_of_group[group].get_or_insert(draft.vertex_count);
             if pins[group].is_none() && draft.indices.is_some() {
-                pins[group] = vertex_pin(draft, count, claims).map(|pin| (draft.ordinal, pin));
+                pins[group] = vertex_pin(draft, count, claims).map(|pin| (draft.position, pin));
             }
             let key = match &draft.indices {
                 Some(list) => list.records,
@@ -87,7 +88,8 @@ impl Entries {
                 Some(&entry) => entry,
                 None => {
                     let entry = entries.meshes.len();
-                    entries.add(draft, group, buffers, &mut spare_positions)?;
+                    let name = primitives.name(draft.position);
+                    entries.add(draft, name, group, buffers, &mut spare_positions)?;
                     entry_of.insert(key, entry);
                     entry
                 }
@@ -97,18 +99,24 @@ impl Entries {
             }
             if pins[group].is_none() {
                 // A list is looked through once for its group, however many primitives share it.
-                let lists = draft.indices.iter().chain(&draft.outline);
-                pins[group] = lists
+                pins[group] = draft
+                    .lists()
                     .filter(|list| looked_through.insert((list.records, list.is_bounded)))
                     .find_map(|list| list_pin(list, draft, buffers))
-                    .map(|pin| (draft.ordinal, pin));
+                    .map(|pin| (draft.position, pin));
             }
             let target = &mut entries.groups[group];
-            target.vertices.extend(&draft.vertices);
-            target.sparse.extend(&draft.sparse);
+            target.sparse.extend(draft.sparse());
             target
                 .outlines
-                .extend(draft.outline.as_ref().map(|list| list.records));
+                .extend(draft.outline().map(|list| list.records));
+        }
+        // A stream that drafts read is read by drafts of one group.
+        for stream in &claims.streams {
+            if let Some(&user) = stream.vertex_users.first() {
+                let group = &mut entries.groups[group_of[user]];
+                group.vertices.push(stream.records);
+            }
         }
         for group in &mut entries.groups {
             for records in [&mut group.vertices, &mut group.outlines] {
@@ -129,12 +137,14 @@ impl Entries {
     fn add(
         &mut self,
         draft: &Draft,
+        name: String,
         group: usize,
         buffers: &Buffers,
         spare_positions: &mut usize,
     ) -> Result<(), Problem> {
-        let at_draft =
-            |error: MeshError| FileErrorKind::Order(error).at(Place::Json(draft.pointer.clone()));
+        let at_draft = |error: MeshError| {
+            FileErrorKind::Order(error).at(Place::Json(draft.position.pointer()))
+        };
         let faces = match &draft.indices {
             Some(list) => {
                 let storage = &buffers.storages[list.records.storage];
@@ -148,14 +158,14 @@ impl Entries {
                 (0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect()
             }
         };
-        let positions = draft
-            .positions
-            .filter(|positions| positions.count <= *spare_positions);
+        let positions = draft.positions.map(|place| draft.vertices[place as usize]);
+        let sparse = draft.rare.as_ref().and_then(|rare| rare.sparse_positions);
+        let positions = positions.filter(|positions| positions.count <= *spare_positions);
         let mesh = match positions {
             Some(records) => {
                 *spare_positions -= records.count;
                 let mut positions: Vec<[f32; 3]> = records.of(buffers).map(floats).collect();
-                if let Some(Sparse { indices, values }) = &draft.sparse_positions {
+                if let Some(Sparse { indices, values }) = &sparse {
                     let numbers = patch::numbers(&buffers.storages[indices.storage].bytes, indices);
                     for (number, value) in numbers.into_iter().zip(values.of(buffers)) {
                         positions[number as usize] = floats(value);
@@ -169,7 +179,7 @@ impl Entries {
         self.largest_index.push(largest.copied());
         self.groups[group].meshes.push(self.meshes.len());
         self.meshes.push(MeshEntry {
-            name: draft.name.clone(),
+            name,
             runs: if mesh.face_count() == 0 {
                 vec![]
             } else {
@@ -183,7 +193,7 @@ impl Entries {
         });
         self.corners.push(match &draft.indices {
             Some(list) => Corners::Indices(list.records),
-            None => Corners::Triples(draft.vertices.clone()),
+            None => Corners::Triples(draft.vertices.to_vec()),
         });
         Ok(())
     }
@@ -211,7 +221,7 @@ fn check_restart(numbers: &[u32], list: &IndexList, draft: &Draft) -> Result<(),
     let restart = u32::MAX >> (32 - 8 * list.records.size);
     match numbers.contains(&restart) {
         true => Err(malformed(
-            draft.pointer.clone(),
+            draft.position.pointer(),
             format!(
                 "index {restart} restarts a strip and is no vertex: store the indices in a wider \
                  type"
@@ -225,7 +235,7 @@ fn check_range(numbers: &[u32], draft: &Draft) -> Result<(), Problem> {
     let count = draft.vertex_count;
     match numbers.iter().find(|&&number| number as usize >= count) {
         Some(number) => Err(malformed(
-            draft.pointer.clone(),
+            draft.position.pointer(),
             match count.checked_sub(1) {
                 Some(last) => format!("index {number} is past the last vertex ({last})"),
                 None => format!("index {number}, but there are no vertices"),
@@ -245,8 +255,7 @@ fn list_pin(list: &IndexList, draft: &Draft, buffers: &Buffers) -> Option<Pin> {
         })
     };
     let is_outline = draft
-        .outline
-        .as_ref()
+        .outline()
         .is_some_and(|outline| outline.records == list.records);
     if is_outline {
         let numbers = patch::numbers(bytes, &list.records);

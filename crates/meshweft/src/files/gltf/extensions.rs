@@ -3,6 +3,8 @@
 //! One that is not known may depend on any vertex number, so it keeps the vertices; nothing that is
 //! known to number faces or corners is touched.
 
+use std::borrow::Cow;
+
 use super::accessors::Accessors;
 use super::json::Object;
 use super::primitives::{IndexList, Pin, is_index_type};
@@ -11,14 +13,14 @@ use crate::files::error::Problem;
 /// What keeps a primitive, or its vertices, where they are: the first reason of each counts.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Restraint {
-    pub(super) left: Option<String>,
+    pub(super) left: Option<Cow<'static, str>>,
     pub(super) pin: Option<Pin>,
     /// Extensions that are not known, and the pointers to what has them.
     pub(super) unknown: Vec<(String, String)>,
 }
 
 impl Restraint {
-    pub(super) fn leave(&mut self, why: impl Into<String>) {
+    pub(super) fn leave(&mut self, why: impl Into<Cow<'static, str>>) {
         self.left.get_or_insert_with(|| why.into());
     }
 

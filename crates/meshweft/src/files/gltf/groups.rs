@@ -55,9 +55,9 @@ pub(super) fn leave_entangled(primitives: &mut Primitives, claims: &mut Claims) 
         if reasons[user].is_none() {
             continue;
         }
-        let indices = draft.indices.iter().chain(&draft.outline);
-        let sparse = draft.sparse.iter().flat_map(|s| [&s.indices, &s.values]);
-        let records = indices.map(|list| &list.records).chain(&draft.vertices);
+        let sparse = draft.sparse().iter().flat_map(|s| [&s.indices, &s.values]);
+        let lists = draft.lists().map(|list| &list.records);
+        let records = lists.chain(&draft.vertices);
         let records = records.chain(sparse);
         for records in records {
             let Some(position) = claims.position(records) else {
@@ -65,29 +65,36 @@ pub(super) fn leave_entangled(primitives: &mut Primitives, claims: &mut Claims) 
             };
             let stream = &mut claims.streams[position];
             if stream.taken_by.is_none() {
-                stream.taken_by = Some(draft.pointer.clone());
+                stream.taken_by = Some(draft.position.pointer());
                 to_check.extend(stream.users());
             }
         }
     }
-    let mut kept = Vec::new();
+    if reasons.iter().all(Option::is_none) {
+        return;
+    }
     // The numbers of the drafts that stay drafts change, so those of the users do too.
     let mut new_number = vec![None; reasons.len()];
-    for (old, (draft, reason)) in primitives.drafts.drain(..).zip(reasons).enumerate() {
+    let mut kept = 0;
+    let mut reasons = reasons.into_iter();
+    let left = &mut primitives.left;
+    let mut old = 0;
+    primitives.drafts.retain_mut(|draft| {
+        let reason = reasons.next().flatten();
         match reason {
-            Some(why) => primitives.left.push(Left {
-                ordinal: draft.ordinal,
-                pointer: draft.pointer,
-                why,
-                accessors: draft.accessors,
+            Some(why) => left.push(Left {
+                position: draft.position,
+                why: why.into(),
+                accessors: std::mem::take(&mut draft.accessors),
             }),
             None => {
-                new_number[old] = Some(kept.len());
-                kept.push(draft);
+                new_number[old] = Some(kept);
+                kept += 1;
             }
         }
-    }
-    primitives.drafts = kept;
+        old += 1;
+        new_number[old - 1].is_some()
+    });
     for stream in &mut claims.streams {
         stream.renumber_users(&new_number);
     }
@@ -158,12 +165,12 @@ fn root_of(parents: &mut [usize], mut node: usize) -> usize {
 
 /// Why the vertices of an indexed draft must stay, as far as shared data tells.
 pub(super) fn vertex_pin(draft: &Draft, group_count: usize, claims: &Claims) -> Option<Pin> {
-    if let Some(pin) = &draft.pin {
+    if let Some(pin) = draft.pin() {
         return Some(pin.clone());
     }
     let pin = |why: String| {
         Some(Pin {
-            pointer: draft.pointer.clone(),
+            pointer: draft.position.pointer(),
             why,
         })
     };
@@ -176,7 +183,7 @@ pub(super) fn vertex_pin(draft: &Draft, group_count: usize, claims: &Claims) -> 
             return pin("they are also read as something else".into());
         }
     }
-    let sparse = draft.sparse.iter().flat_map(|s| [&s.indices, &s.values]);
+    let sparse = draft.sparse().iter().flat_map(|s| [&s.indices, &s.values]);
     for position in sparse.filter_map(|records| claims.position(records)) {
         let stream = &claims.streams[position];
         if let Some(by) = &stream.taken_by {
@@ -186,7 +193,7 @@ pub(super) fn vertex_pin(draft: &Draft, group_count: usize, claims: &Claims) -> 
             return pin("their sparse data is also read as something else".into());
         }
     }
-    let outline = draft.outline.as_ref().map(|list| &list.records);
+    let outline = draft.outline().map(|list| &list.records);
     if let Some(stream) = outline.and_then(|r| claims.position(r)) {
         let stream = &claims.streams[stream];
         if let Some(by) = &stream.taken_by {

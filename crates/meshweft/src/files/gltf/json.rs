@@ -357,7 +357,12 @@ impl<'a> Object<'a> {
     pub(super) fn array(&self, name: &str) -> Result<Vec<Value<'a>>, Problem> {
         match self.value(name) {
             None => Ok(Vec::new()),
-            Some(value) if value.is_array() => Ok(value.elements().collect()),
+            Some(value) if value.is_array() => {
+                // Counted first: growing would take twice the memory.
+                let mut elements = Vec::with_capacity(value.elements().count());
+                elements.extend(value.elements());
+                Ok(elements)
+            }
             Some(other) => Err(malformed(
                 self.pointer_to(name),
                 format!("expected an array, found {}", other.kind()),

@@ -27,6 +27,7 @@ mod primitives;
 mod records;
 mod sparse;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -42,14 +43,14 @@ use container::Container;
 use entries::{Corners, Entries};
 use json::{Json, JsonFault, Object, Value};
 use output::Output;
-use primitives::Primitives;
+use primitives::{Position, Primitives};
 
 /// A glTF file whose records can be moved.
 struct Scene {
     source: PathBuf,
     container: Container,
     buffers: Buffers,
-    uri_spans: Vec<Option<Range<usize>>>,
+    uri_spans: BTreeMap<usize, Range<usize>>,
     entries: Entries,
 }
 
@@ -74,13 +75,14 @@ pub(super) fn read(
     let root = Object::new(json.root(), String::new())?;
     check_version(&root)?;
     let buffers = Buffers::load(&root, binary, path, is_glb, options)?;
-    let uri = |buffer: Value<'_>| buffer.get("uri").map(Value::span);
-    let uri_spans = root.array("buffers")?.into_iter().map(uri).collect();
+    let uris = root.array("buffers")?.into_iter().enumerate();
+    let span = |(number, buffer): (usize, Value<'_>)| Some((number, buffer.get("uri")?.span()));
+    let uri_spans = uris.filter_map(span).collect();
     let accessors = Accessors::new(&root, &buffers, &options.assume_order_safe)?;
     let mut primitives = Primitives::read(&root, &accessors, options)?;
     let mut claims = Claims::new(&root, &accessors, &primitives);
     groups::leave_entangled(&mut primitives, &mut claims);
-    let entries = Entries::new(&primitives.drafts, &claims, &buffers)?;
+    let entries = Entries::new(&primitives, &claims, &buffers)?;
     let notes = notes(&root, &primitives, &entries, &buffers);
     let scene = Scene {
         source: path.to_owned(),
@@ -157,21 +159,33 @@ fn notes(
     entries: &Entries,
     buffers: &Buffers,
 ) -> Vec<Note> {
-    let note = |pointer: &str, text: String| Note {
-        place: Place::Json(pointer.to_owned()),
-        text,
-    };
-    let left = primitives.left.iter().map(|left| {
-        let text = format!("left as it is: {}", left.why);
-        (left.ordinal, note(&left.pointer, text))
+    // One note for each reason, at the first place: a reason may hold for very many.
+    type Reason<'a> = (&'static str, &'a str);
+    let mut firsts: BTreeMap<Reason<'_>, (Position, Option<&str>, usize)> = BTreeMap::new();
+    let left = primitives.left.iter();
+    let left = left.map(|left| (("left as it is", &*left.why), left.position, None));
+    let pinned = entries.pins.iter().map(|(position, pin)| {
+        let reason = ("the vertices stay where they are", pin.why.as_str());
+        (reason, *position, Some(pin.pointer.as_str()))
     });
-    let pinned = entries.pins.iter().map(|(ordinal, pin)| {
-        let text = format!("the vertices stay where they are: {}", pin.why);
-        (*ordinal, note(&pin.pointer, text))
-    });
-    let mut of_primitives: Vec<(usize, Note)> = left.chain(pinned).collect();
-    of_primitives.sort_by_key(|(ordinal, _)| *ordinal);
-    let mut notes: Vec<Note> = of_primitives.into_iter().map(|(_, note)| note).collect();
+    for (reason, position, pointer) in left.chain(pinned) {
+        let first = firsts.entry(reason).or_insert((position, pointer, 0));
+        if position < first.0 {
+            (first.0, first.1) = (position, pointer);
+        }
+        first.2 += 1;
+    }
+    let mut firsts: Vec<_> = firsts.into_iter().collect();
+    firsts.sort_by_key(|(_, (position, ..))| *position);
+    let notes = firsts
+        .into_iter()
+        .map(|((what, why), (position, pointer, count))| Note {
+            place: Place::Json(pointer.map_or_else(|| position.pointer(), str::to_owned)),
+            text: format!("{what}: {why}"),
+            more: count - 1,
+        });
+    let mut notes: Vec<Note> = notes.collect();
+    let note = |pointer: &str, text: String| Note::new(Place::Json(pointer.to_owned()), text);
     for (buffer, why) in buffers.unreadable() {
         notes.push(note(
             &format!("/buffers/{buffer}/uri"),

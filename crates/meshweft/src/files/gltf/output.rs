@@ -1,6 +1,7 @@
 //! Where the parts of a glTF go when it is written: its text, and the buffers beside it.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -17,7 +18,7 @@ pub(super) struct Output<'a> {
     pub(super) container: &'a Container,
     pub(super) buffers: &'a Buffers,
     /// Where each buffer's `uri` stands in the JSON text.
-    pub(super) uri_spans: &'a [Option<Range<usize>>],
+    pub(super) uri_spans: &'a BTreeMap<usize, Range<usize>>,
 }
 
 impl<'a> Output<'a> {
@@ -112,10 +113,9 @@ impl<'a> Output<'a> {
         } = self.container;
         let mut parts: Vec<Cow<'a, [u8]>> = Vec::new();
         let mut copied = 0;
-        let span_of = |buffer: usize| self.uri_spans.get(buffer).cloned().flatten();
         new_uris.sort_unstable_by_key(|(buffer, _)| *buffer);
         for (buffer, uri) in new_uris {
-            let Some(span) = span_of(buffer) else {
+            let Some(span) = self.uri_spans.get(&buffer) else {
                 continue;
             };
             parts.push(head[copied..json.start + span.start].into());

@@ -12,7 +12,7 @@ use super::records::Records;
 use super::sparse::Sparse;
 use crate::files::ReadOptions;
 use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::limits::{MAX_FACES, MAX_VERTICES};
+use crate::limits::{MAX_FACES, MAX_VERTICES, index32};
 
 /// Something that keeps vertices where they are: the pointer to it, and why.
 #[derive(Debug, Clone)]
@@ -29,22 +29,43 @@ pub(super) struct IndexList {
     pub(super) is_bounded: bool,
 }
 
+/// Where a primitive stands: the numbers of its mesh and of itself. They come in the order of the
+/// file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Position {
+    mesh: u32,
+    primitive: u32,
+}
+
+impl Position {
+    pub(super) fn pointer(self) -> String {
+        format!("/meshes/{}/primitives/{}", self.mesh, self.primitive)
+    }
+}
+
 /// A triangle-list primitive whose faces can be re-ordered as far as itself is concerned.
+///
+/// A file can have very many: what few of them have is apart.
 #[derive(Debug)]
 pub(super) struct Draft {
-    /// Its number among all primitives of the file.
-    pub(super) ordinal: usize,
-    pub(super) pointer: String,
-    pub(super) name: String,
+    pub(super) position: Position,
     pub(super) vertex_count: usize,
     /// Its corners; without them the vertices come three a face.
-    pub(super) indices: Option<IndexList>,
-    /// POSITION, if it is three floats.
-    pub(super) positions: Option<Records>,
-    /// What is sparse of them.
-    pub(super) sparse_positions: Option<Sparse>,
+    pub(super) indices: Option<Box<IndexList>>,
     /// Every attribute and morph target that has bytes, rising, each once.
-    pub(super) vertices: Vec<Records>,
+    pub(super) vertices: Box<[Records]>,
+    /// Which of them is POSITION, if that is three floats.
+    pub(super) positions: Option<u32>,
+    pub(super) rare: Option<Box<Rare>>,
+    /// The numbers of all accessors it names.
+    pub(super) accessors: Box<[u32]>,
+}
+
+/// What few primitives have.
+#[derive(Debug, Default)]
+pub(super) struct Rare {
+    /// What is sparse of the positions.
+    pub(super) sparse_positions: Option<Sparse>,
     pub(super) outline: Option<IndexList>,
     /// The sparse elements of attributes and morph targets, rising, each once.
     pub(super) sparse: Vec<Sparse>,
@@ -52,17 +73,33 @@ pub(super) struct Draft {
     pub(super) unmoved_sparse: Vec<usize>,
     /// Why the vertices must stay.
     pub(super) pin: Option<Pin>,
-    /// The numbers of all accessors it names.
-    pub(super) accessors: Vec<usize>,
+}
+
+impl Draft {
+    pub(super) fn outline(&self) -> Option<&IndexList> {
+        self.rare.as_ref()?.outline.as_ref()
+    }
+
+    pub(super) fn sparse(&self) -> &[Sparse] {
+        self.rare.as_ref().map_or(&[], |rare| &rare.sparse)
+    }
+
+    pub(super) fn pin(&self) -> Option<&Pin> {
+        self.rare.as_ref()?.pin.as_ref()
+    }
+
+    /// The lists of vertex numbers: corners and outline.
+    pub(super) fn lists(&self) -> impl Iterator<Item = &IndexList> {
+        self.indices.as_deref().into_iter().chain(self.outline())
+    }
 }
 
 /// A primitive that stays as it is.
 #[derive(Debug)]
 pub(super) struct Left {
-    pub(super) ordinal: usize,
-    pub(super) pointer: String,
-    pub(super) why: String,
-    pub(super) accessors: Vec<usize>,
+    pub(super) position: Position,
+    pub(super) why: Cow<'static, str>,
+    pub(super) accessors: Box<[u32]>,
 }
 
 /// All primitives of a file.
@@ -72,41 +109,54 @@ pub(super) struct Primitives {
     pub(super) left: Vec<Left>,
     /// Accessors that read the same triangles in one piece and do not mind their order.
     pub(super) order_free_accessors: Vec<usize>,
+    /// Of each mesh its name, and whether it has more than one primitive.
+    meshes: Vec<(Option<Box<str>>, bool)>,
 }
 
 impl Primitives {
+    /// What a primitive is called.
+    pub(super) fn name(&self, position: Position) -> String {
+        let Position { mesh, primitive } = position;
+        let (name, has_several) = &self.meshes[mesh as usize];
+        let name = name.as_deref();
+        let name = name.map_or_else(|| format!("mesh {mesh}"), str::to_owned);
+        match has_several {
+            true => format!("{name}, primitive {primitive}"),
+            false => name,
+        }
+    }
+
     pub(super) fn read(
         root: &Object,
         accessors: &Accessors,
         options: &ReadOptions,
     ) -> Result<Self, Problem> {
         let mut all = Self::default();
-        let mut ordinal = 0;
-        for (number, mesh) in root.objects("meshes")?.enumerate() {
+        // JSON is shorter than 4 GiB, so all numbers fit.
+        for (number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
             let mesh = mesh?;
             let name = mesh.text("name").ok().flatten();
-            let name = name.map_or_else(|| format!("mesh {number}"), Cow::into_owned);
             let of_mesh = extensions::of_mesh(&mesh, accessors, &mut all.order_free_accessors)?;
-            let primitive_count = mesh.array("primitives")?.len();
-            for (index, primitive) in mesh.objects("primitives")?.enumerate() {
+            let primitives = mesh.objects("primitives")?;
+            let has_several = mesh
+                .value("primitives")
+                .map_or(0, |p| p.elements().take(2).count());
+            all.meshes
+                .push((name.map(|name| name.into()), has_several != 1));
+            for (index, primitive) in (0_u32..).zip(primitives) {
                 let reader = Reader {
+                    position: Position {
+                        mesh: number,
+                        primitive: index,
+                    },
                     primitive: primitive?,
                     accessors,
                     options,
                 };
-                let name = match primitive_count {
-                    1 => name.clone(),
-                    _ => format!("{name}, primitive {index}"),
-                };
                 match reader.read(of_mesh.clone())? {
-                    Ok(draft) => all.drafts.push(Draft {
-                        ordinal,
-                        name,
-                        ..draft
-                    }),
-                    Err(left) => all.left.push(Left { ordinal, ..left }),
+                    Ok(draft) => all.drafts.push(draft),
+                    Err(left) => all.left.push(left),
                 }
-                ordinal += 1;
             }
         }
         Ok(all)
@@ -124,6 +174,7 @@ struct VertexData {
 }
 
 struct Reader<'a> {
+    position: Position,
     primitive: Object<'a>,
     accessors: &'a Accessors<'a>,
     options: &'a ReadOptions,
@@ -131,11 +182,9 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn read(self, mut restraint: Restraint) -> Result<Result<Draft, Left>, Problem> {
-        let pointer = self.primitive.pointer().to_owned();
-        let left = |why: String| Left {
-            ordinal: 0,
+        let left = |why: Cow<'static, str>| Left {
+            position: self.position,
             accessors: self.named_accessors(),
-            pointer: pointer.clone(),
             why,
         };
         match self.primitive.number("mode")?.unwrap_or(4) {
@@ -161,9 +210,8 @@ impl Reader<'_> {
         }
         // Without indices a face order moves the vertices.
         if let (false, Some(pin)) = (self.primitive.has("indices"), &restraint.pin) {
-            restraint
-                .left
-                .get_or_insert(format!("{}: {}", pin.pointer, pin.why));
+            let why = format!("{}: {}", pin.pointer, pin.why);
+            restraint.leave(why);
         }
         if let Some((pointer, name)) = restraint.unknown.first()
             && let Some(kind) = self.options.refusal("the extension", name)
@@ -175,20 +223,26 @@ impl Reader<'_> {
         }
         self.check_limits(vertex_count, indices.as_ref())?;
         let positions = position.filter(|p| p.component == FLOAT && p.shape == Shape::VEC3);
-        Ok(Ok(Draft {
-            ordinal: 0,
-            name: String::new(),
-            vertex_count,
-            indices,
-            positions: positions.and_then(|position| position.records),
+        let positions = positions.and_then(|position| position.records);
+        let positions = positions.and_then(|p| data.records.binary_search(&p).ok());
+        let rare = Rare {
             sparse_positions: data.positions,
-            vertices: data.records,
             sparse: data.sparse,
             unmoved_sparse: data.unmoved_sparse,
             outline,
             pin: restraint.pin,
+        };
+        let has_rare = rare.outline.is_some()
+            || rare.pin.is_some()
+            || !(rare.sparse.is_empty() && rare.unmoved_sparse.is_empty());
+        Ok(Ok(Draft {
+            position: self.position,
+            vertex_count,
+            indices: indices.map(Box::new),
+            positions: positions.map(index32),
+            vertices: data.records.into(),
+            rare: has_rare.then(|| Box::new(rare)),
             accessors: self.named_accessors(),
-            pointer,
         }))
     }
 
@@ -348,7 +402,7 @@ impl Reader<'_> {
     }
 
     /// The numbers of all accessors that the primitive names, sound or not.
-    fn named_accessors(&self) -> Vec<usize> {
+    fn named_accessors(&self) -> Box<[u32]> {
         let set = |value: Value<'_>| -> Vec<usize> {
             let fields = value.members();
             fields.filter_map(|(_, value)| value.whole()).collect()
@@ -370,7 +424,8 @@ impl Reader<'_> {
                 .and_then(|o| o.get("indices"))
                 .and_then(Value::whole),
         );
-        numbers
+        let numbers = numbers.into_iter().filter_map(|n| u32::try_from(n).ok());
+        numbers.collect()
     }
 }
 

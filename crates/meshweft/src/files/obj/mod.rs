@@ -74,16 +74,15 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     let mut notes = Vec::new();
     let mut entries = Vec::new();
     if records.len() == 0 {
-        let text = "no faces: there is nothing to order".into();
-        let place = Place::File;
-        notes.push(Note { place, text });
+        let text = "no faces: there is nothing to order";
+        notes.push(Note::new(Place::File, text));
     } else {
         let vertices_movable = obstacle.is_none();
         if let Some((at, why)) = obstacle {
-            notes.push(Note {
-                place: Place::Line(line_of(&bytes, at)),
-                text: format!("the vertices stay where they are: {why}"),
-            });
+            notes.push(Note::new(
+                Place::Line(line_of(&bytes, at)),
+                format!("the vertices stay where they are: {why}"),
+            ));
         }
         let name = name.map_or_else(
             || "mesh".to_owned(),

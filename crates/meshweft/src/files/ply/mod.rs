@@ -97,14 +97,13 @@ fn finish(bytes: Vec<u8>, header: &Header, plan: Plan, body: Body) -> ReadResult
     let record_count = body.records.len();
     if record_count == 0 {
         let strips = header.element("tristrips");
-        notes.push(Note {
-            place: strips.map_or(Place::File, |strips| Place::Line(strips.line)),
-            text: match strips {
+        notes.push(Note::new(
+            strips.map_or(Place::File, |strips| Place::Line(strips.line)),
+            match strips {
                 Some(_) => "triangle strips stay as they are: convert them to faces first",
                 None => "no faces: there is nothing to order",
-            }
-            .into(),
-        });
+            },
+        ));
     } else {
         let mesh = match body.positions.is_empty() {
             true => Mesh::connectivity_only(body.vertices.len(), body.records.faces),
@@ -224,28 +223,27 @@ impl Plan {
         if let Some(Kind::List { item, .. }) = list
             && vertex_count as u64 > item.largest().saturating_add(1)
         {
-            self.vertex_obstacle.get_or_insert_with(|| Note {
-                place: Place::Line(element.line),
-                text: format!(
-                    "the vertices stay where they are: their indices are stored in {} bytes, \
-                     which cannot name all {vertex_count}",
-                    item.size()
-                ),
-            });
+            let text = format!(
+                "the vertices stay where they are: their indices are stored in {} bytes, which \
+                 cannot name all {vertex_count}",
+                item.size()
+            );
+            let note = || Note::new(Place::Line(element.line), text);
+            self.vertex_obstacle.get_or_insert_with(note);
         }
     }
 
     fn keep_vertices(&mut self, element: &Element, what: &str) {
-        self.vertex_obstacle.get_or_insert_with(|| Note {
-            place: Place::Line(element.line),
-            text: format!("the vertices stay where they are: {what} may name them by number"),
+        self.vertex_obstacle.get_or_insert_with(|| {
+            let text = format!("the vertices stay where they are: {what} may name them by number");
+            Note::new(Place::Line(element.line), text)
         });
     }
 
     fn keep_faces(&mut self, element: &Element, what: &str) {
-        self.face_obstacle.get_or_insert_with(|| Note {
-            place: Place::Line(element.line),
-            text: format!("the faces stay where they are: {what} may go by their order"),
+        self.face_obstacle.get_or_insert_with(|| {
+            let text = format!("the faces stay where they are: {what} may go by their order");
+            Note::new(Place::Line(element.line), text)
         });
     }
 }
@@ -374,7 +372,7 @@ fn read_faces<R: Rows>(
     let vertex_count = header.vertex_count();
     let layout = TriangleLayout::of(element, list);
     let mut corners = Vec::new();
-    body.records.reserve(rows.at_most(element));
+    body.records.reserve(rows.at_most(element), rows.left());
     let mut number = 0;
     while number < element.count {
         let start = rows.start_row();

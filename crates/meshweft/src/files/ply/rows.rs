@@ -47,6 +47,8 @@ pub(super) trait Rows {
     fn float(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<f32, Fault>;
     /// A whole number; the type is not a float.
     fn whole(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault>;
+    /// How many bytes are left.
+    fn left(&self) -> usize;
     /// How many rows of the element can be there, by the bytes that are left.
     fn at_most(&self, element: &Element) -> usize;
 
@@ -188,6 +190,10 @@ impl Rows for Ascii<'_> {
         })
     }
 
+    fn left(&self) -> usize {
+        self.source.len() - self.at()
+    }
+
     fn at_most(&self, element: &Element) -> usize {
         // Each value takes a digit and what separates it from the next.
         let smallest = element.properties.len() * 2;
@@ -283,6 +289,10 @@ impl<const BIG: bool> Rows for Binary<'_, BIG> {
             // The header reader refuses floats where whole numbers are needed.
             Scalar::F32 | Scalar::F64 => return Err(row.malformed(self.at, "a float as a count")),
         })
+    }
+
+    fn left(&self) -> usize {
+        self.source.len() - self.at
     }
 
     fn at_most(&self, element: &Element) -> usize {

@@ -56,9 +56,8 @@ fn content<N: Notation + 'static>(
 ) -> ReadResult {
     let (mut entries, mut notes) = (Vec::new(), Vec::new());
     if facets.corners.is_empty() {
-        let text = "no faces: there is nothing to order".into();
-        let place = Place::File;
-        notes.push(Note { place, text });
+        let text = "no faces: there is nothing to order";
+        notes.push(Note::new(Place::File, text));
     } else {
         let mesh = welded(&facets.corners, limits).map_err(|kind| kind.at(Place::File))?;
         entries.push(MeshEntry {
@@ -90,7 +89,7 @@ fn welded(facets: &[[[u32; 3]; 3]], limits: &Limits) -> Result<Mesh, FileErrorKi
     let mut numbers: HashMap<[u32; 3], u32> = HashMap::new();
     let mut unique = Vec::new();
     let mut records = FaceRecords::default();
-    records.reserve(facets.len());
+    records.reserve(facets.len(), size_of_val(facets));
     for facet in facets {
         let face = facet.map(|bits| {
             *numbers.entry(bits).or_insert_with(|| {

@@ -18,6 +18,7 @@ mod lists;
 mod nodes;
 mod scene;
 
+use std::collections::BTreeMap;
 use std::io;
 use std::ops::Range;
 use std::path::Path;
@@ -46,10 +47,12 @@ pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
     };
     let (mut entries, mut sets) = (Vec::new(), Vec::new());
     let stays = |why: &str| format!("the mesh stays as it is: {why}");
-    let refused = scene.refused.iter().map(|(at, why)| (*at, stays(why)));
-    let mut said: Vec<(usize, String)> = refused.collect();
+    let mut said = Said::default();
+    for (at, why) in &scene.refused {
+        said.add(*at, stays(why));
+    }
     for (number, set) in scene.face_sets.iter().enumerate() {
-        let mut note = |text| said.push((set.span.start, text));
+        let mut note = |text| said.add(set.span.start, text);
         match binder.bind(set, number) {
             Ok(bound) => {
                 if let Some(why) = bound.vertices_stay {
@@ -68,11 +71,10 @@ pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
             Err(Stop::Fault(fault)) => return Err(fault.problem(&bytes)),
         }
     }
-    let mut notes = notes(&bytes, said);
+    let mut notes = said.notes(&bytes);
     if entries.is_empty() && notes.is_empty() {
-        let text = "no faces: there is nothing to order".into();
-        let place = Place::File;
-        notes.push(Note { place, text });
+        let text = "no faces: there is nothing to order";
+        notes.push(Note::new(Place::File, text));
     }
     let file = VrmlFile {
         source: bytes,
@@ -112,23 +114,37 @@ fn header(bytes: &[u8]) -> Result<usize, Problem> {
     Err(kind.at(Place::Line(1)))
 }
 
-/// What is said of places in the text, in their order. The lines are counted once for all.
-fn notes(text: &[u8], mut said: Vec<(usize, String)>) -> Vec<Note> {
-    said.sort_by_key(|&(at, _)| at);
-    let (mut counted, mut line) = (0, 1);
-    let notes = said.into_iter().map(|(at, said)| {
-        let ends = (counted..at).filter(|&byte| match text[byte] {
-            b'\r' => text.get(byte + 1) != Some(&b'\n'),
-            byte => is_line_end(byte),
+/// What is said of places in the text: each thing once, with its first place and how many there
+/// are.
+#[derive(Default)]
+struct Said(BTreeMap<String, (usize, usize)>);
+
+impl Said {
+    fn add(&mut self, at: usize, text: String) {
+        let (first, count) = self.0.entry(text).or_insert((at, 0));
+        *first = at.min(*first);
+        *count += 1;
+    }
+
+    /// The notes, in the order of the text. Its lines are counted once for all.
+    fn notes(self, text: &[u8]) -> Vec<Note> {
+        let mut said: Vec<_> = self.0.into_iter().collect();
+        said.sort_by_key(|&(_, (at, _))| at);
+        let (mut counted, mut line) = (0, 1);
+        let notes = said.into_iter().map(|(said, (at, count))| {
+            let ends = (counted..at).filter(|&byte| match text[byte] {
+                b'\r' => text.get(byte + 1) != Some(&b'\n'),
+                byte => is_line_end(byte),
+            });
+            line += ends.count();
+            counted = at;
+            Note {
+                more: count - 1,
+                ..Note::new(Place::Line(line), said)
+            }
         });
-        line += ends.count();
-        counted = at;
-        Note {
-            place: Place::Line(line),
-            text: said,
-        }
-    });
-    notes.collect()
+        notes.collect()
+    }
 }
 
 /// A face set: its bytes, its records, and the orders they were put in.
