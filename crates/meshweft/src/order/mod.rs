@@ -4,6 +4,7 @@
 //! Faces come first, then [`vertex_fetch()`] puts the vertices in the order of their first use.
 
 pub mod baselines;
+mod greedy;
 mod k_cache_reorder;
 mod vertex_fetch;
 

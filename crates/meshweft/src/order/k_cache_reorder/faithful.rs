@@ -6,10 +6,10 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap, VecDeque};
 
-use super::costs::Costs;
 use crate::adjacency::{Adjacency, distinct};
 use crate::cache::CacheEvent;
 use crate::limits::index32;
+use crate::order::greedy::Costs;
 use crate::permutation::{FaceOrder, Permutation};
 
 /// Most faces of a tentative run.

@@ -11,10 +11,8 @@
 
 use std::hint::select_unpredictable;
 
-use super::costs::Costs;
-use super::live_faces::LiveFaces;
-use super::queue::{Entry, Queue};
 use crate::cache::CacheEvent;
+use crate::order::greedy::{Costs, Entry, LiveFaces, Queue};
 use crate::permutation::{FaceOrder, Permutation};
 
 /// How many of the oldest vertices are looked at. More are no better: on four scanned and CAD meshes

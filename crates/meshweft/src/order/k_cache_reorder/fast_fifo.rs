@@ -6,17 +6,15 @@
 //! - A vertex is in the cache if it entered within the last `K` pushes, so one time stamp a vertex
 //!   is the whole cache, and a tentative run is undone by restoring a few stamps.
 //! - Each vertex knows how many white corners its live faces have, which bounds from below the
-//!   pushes that finishing it takes ([`Vertex::white_neighbours`](super::live_faces::Vertex)); a
+//!   pushes that finishing it takes ([`Vertex::white_neighbours`](crate::order::greedy::LiveFaces)); a
 //!   push or an eviction updates its neighbours. Only the candidate that looks cheapest is run
 //!   tentatively; if the run confirms the estimate, no other candidate can be cheaper.
 //! - All costs are integers: a rounding difference would let platforms disagree.
 
 use std::hint::select_unpredictable;
 
-use super::costs::Costs;
-use super::live_faces::{HUB, LiveFaces};
-use super::queue::{Entry, Queue};
 use crate::limits::index32;
+use crate::order::greedy::{Costs, Entry, HUB, LiveFaces, Queue, Turn};
 use crate::permutation::{FaceOrder, Permutation};
 
 /// Most candidates looked at; see [`candidate_count`].
@@ -353,45 +351,3 @@ impl<'a> Growth<'a> {
         self.live.announce_entry(vertex);
     }
 }
-
-/// How a face is turned, and which of its turned corners may have to be pushed.
-struct Turn {
-    rotation: u8,
-    /// Corners that are not in the cache when the face starts.
-    misses: u32,
-    /// First turned corner to look at.
-    first: usize,
-}
-
-impl Turn {
-    /// From 1 for each corner that is not in the cache, else 0.
-    #[inline]
-    fn new<const KEEP_CORNERS: bool>(missing: [u32; 3]) -> Self {
-        let misses = missing[0] + missing[1] + missing[2];
-        if KEEP_CORNERS {
-            let (rotation, first) = (0, 0);
-            return Self {
-                rotation,
-                misses,
-                first,
-            };
-        }
-        let set = missing[0] | missing[1] << 1 | missing[2] << 2;
-        Self {
-            rotation: HITS_FIRST[set as usize & 7],
-            misses,
-            // Hits change nothing, and the misses are the last ones.
-            first: 3 - misses as usize,
-        }
-    }
-
-    #[inline]
-    fn pushes(&self, corners: [u32; 3]) -> impl Iterator<Item = u32> {
-        let [a, b, c] = corners;
-        let turned = [[a, b, c], [b, c, a], [c, a, b]][self.rotation as usize];
-        turned.into_iter().skip(self.first)
-    }
-}
-
-/// How far to turn a face so that its hits come first, by the bit set of its missing corners.
-const HITS_FIRST: [u8; 8] = [0, 1, 2, 2, 0, 1, 0, 0];

@@ -40,20 +40,17 @@
 //! controllable cache the vertex that leaves is the one that is needed last, see
 //! `fast_controllable`. Read `fast_fifo` for how it avoids running every candidate.
 
-mod costs;
 mod faithful;
 mod fast_controllable;
 mod fast_fifo;
-mod live_faces;
 #[cfg(test)]
 mod oracle;
-mod queue;
 
 use crate::cache::{CacheEvent, CacheModel, MIN_CACHE_SIZE, Schedule};
 use crate::limits::index32;
 use crate::mesh::Mesh;
+use crate::order::greedy::Costs;
 use crate::permutation::{FaceOrder, Permutation};
-use costs::Costs;
 
 /// How closely [`KCacheReorder`] follows the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

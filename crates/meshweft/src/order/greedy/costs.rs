@@ -9,7 +9,7 @@ use crate::cache::MAX_CACHE_SIZE;
 /// Sums wrap around where absurd weights meet absurd valences: such an order is poor, but it is
 /// an order, and the same on every platform.
 #[derive(Debug, Clone)]
-pub(super) struct Costs {
+pub(in crate::order) struct Costs {
     push: i64,
     face: i64,
     /// What a push since it entered takes off a vertex's cost: `k3 / K`.
@@ -22,7 +22,7 @@ pub(super) struct Costs {
 const DENOMINATOR: f64 = 1000.0;
 
 impl Costs {
-    pub(super) fn new(k1: f64, k2: f64, k3: f64, size: u32) -> Self {
+    pub(in crate::order) fn new(k1: f64, k2: f64, k3: f64, size: u32) -> Self {
         #[expect(clippy::cast_possible_truncation, reason = "clamped to 2^20 before")]
         let fixed = |k: f64| (k.clamp(-1024.0, 1024.0) * DENOMINATOR).round() as i64;
         let size = i64::from(size.min(MAX_CACHE_SIZE));
@@ -37,13 +37,13 @@ impl Costs {
 
     /// The cost if `pushes` are needed, none of the vertex itself, from the state before them.
     #[inline]
-    pub(super) fn of(&self, pushes: u32, faces: u32, age: u32) -> i64 {
+    pub(in crate::order) fn of(&self, pushes: u32, faces: u32, age: u32) -> i64 {
         Self::sum(self.aging_push, self.face, self.age, pushes, faces, age)
     }
 
     /// The cost from the state after the vertex was finished.
     #[inline]
-    pub(super) fn after_run(&self, pushes: u32, faces: u32, age: u32) -> i64 {
+    pub(in crate::order) fn after_run(&self, pushes: u32, faces: u32, age: u32) -> i64 {
         Self::sum(self.push, self.face, self.age, pushes, faces, age)
     }
 

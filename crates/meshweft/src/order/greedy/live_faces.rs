@@ -6,22 +6,22 @@ use crate::limits::index32;
 
 /// A vertex on more faces than this is a *hub*: its comings and goings are not announced to its
 /// neighbours and it is not run tentatively. That bounds the work of a step, whatever the valence.
-pub(super) const HUB: u32 = 256;
+pub(in crate::order) const HUB: u32 = 256;
 
 /// Live counts from this on share one dead-end stack.
 const STACKS: usize = 8;
 
 /// What a step needs to know of a vertex, side by side in memory.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Vertex {
+pub(in crate::order) struct Vertex {
     /// FIFO: the clock when it was last pushed, 0 before. Controllable: whether it is in the cache.
-    pub(super) entered: u32,
+    pub(in crate::order) entered: u32,
     /// Start of its row of faces; the next vertex's start ends it.
     row: u32,
     /// Its corners in faces that are not drawn yet. 0: black.
-    pub(super) live: u32,
+    pub(in crate::order) live: u32,
     /// White corners of its live faces: its neighbours', and while it is white its own.
-    pub(super) white_corners: u32,
+    pub(in crate::order) white_corners: u32,
 }
 
 impl Vertex {
@@ -30,7 +30,7 @@ impl Vertex {
     /// A neighbour is a corner of one live face, or of two if it is inside the fan. One face being
     /// drawn, the fan is open: `n` live faces share at most `n − 1` neighbours.
     #[inline]
-    pub(super) fn white_neighbours(&self) -> u32 {
+    pub(in crate::order) fn white_neighbours(&self) -> u32 {
         let corners = self.white_corners;
         corners
             .div_ceil(2)
@@ -39,10 +39,10 @@ impl Vertex {
 }
 
 /// The state of a greedy traversal, apart from its cache.
-pub(super) struct LiveFaces<'a> {
-    pub(super) faces: &'a [[u32; 3]],
+pub(in crate::order) struct LiveFaces<'a> {
+    pub(in crate::order) faces: &'a [[u32; 3]],
     /// One more entry than vertices, so that each row has an end.
-    pub(super) vertices: Vec<Vertex>,
+    pub(in crate::order) vertices: Vec<Vertex>,
     /// Rows of face numbers, drawn faces included.
     rows: Vec<u32>,
     /// Whether each face is drawn. Bytes, not bits: they are tested more often than a row is read.
@@ -57,7 +57,7 @@ pub(super) struct LiveFaces<'a> {
 
 impl<'a> LiveFaces<'a> {
     /// No face is drawn and every vertex is white.
-    pub(super) fn new(faces: &'a [[u32; 3]], vertex_count: usize) -> Self {
+    pub(in crate::order) fn new(faces: &'a [[u32; 3]], vertex_count: usize) -> Self {
         let mut vertices = vec![Vertex::default(); vertex_count + 1];
         for &[a, b, c] in faces {
             vertices[a as usize].live += 1;
@@ -99,7 +99,7 @@ impl<'a> LiveFaces<'a> {
 
     /// Writes the live faces of `vertex`, in file order, to the front of `buffer`; how many.
     #[inline]
-    pub(super) fn gather(&self, vertex: u32, buffer: &mut Vec<u32>) -> usize {
+    pub(in crate::order) fn gather(&self, vertex: u32, buffer: &mut Vec<u32>) -> usize {
         let row = &self.rows[self.row(vertex)];
         if buffer.len() < row.len() {
             buffer.resize(row.len(), 0);
@@ -116,7 +116,11 @@ impl<'a> LiveFaces<'a> {
 
     /// Shows the corners of each live face of `vertex`, unless it is a hub.
     #[inline]
-    pub(super) fn for_each_live_face(&self, vertex: u32, mut visit: impl FnMut([u32; 3])) {
+    pub(in crate::order) fn for_each_live_face(
+        &self,
+        vertex: u32,
+        mut visit: impl FnMut([u32; 3]),
+    ) {
         let row = self.row(vertex);
         if row.len() <= HUB as usize {
             for &face in &self.rows[row] {
@@ -129,13 +133,13 @@ impl<'a> LiveFaces<'a> {
 
     /// Marks `face` drawn; false if it was (a face that names a vertex twice is met twice).
     #[inline]
-    pub(super) fn mark_drawn(&mut self, face: u32) -> bool {
+    pub(in crate::order) fn mark_drawn(&mut self, face: u32) -> bool {
         !std::mem::replace(&mut self.drawn[face as usize], true)
     }
 
     /// Takes a drawn face with `white` white corners off the counts of its corners.
     #[inline]
-    pub(super) fn remove_corners(&mut self, corners: [u32; 3], white: u32) {
+    pub(in crate::order) fn remove_corners(&mut self, corners: [u32; 3], white: u32) {
         for corner in corners {
             let vertex = &mut self.vertices[corner as usize];
             vertex.live -= 1;
@@ -145,13 +149,13 @@ impl<'a> LiveFaces<'a> {
 
     /// Tells the neighbours of `vertex` that it entered the cache.
     #[inline]
-    pub(super) fn announce_entry(&mut self, vertex: u32) {
+    pub(in crate::order) fn announce_entry(&mut self, vertex: u32) {
         self.announce(vertex, 1_u32.wrapping_neg());
     }
 
     /// Tells the neighbours of `vertex` that it left the cache, and remembers it for dead ends.
     #[inline]
-    pub(super) fn announce_unfinished_exit(&mut self, vertex: u32) {
+    pub(in crate::order) fn announce_unfinished_exit(&mut self, vertex: u32) {
         self.announce(vertex, 1);
         let slot = stack_of(self.vertices[vertex as usize].live);
         let stack = &mut self.dead_ends[slot];
@@ -189,7 +193,7 @@ impl<'a> LiveFaces<'a> {
     /// Where to go on when no live vertex is in the cache: the vertex with the fewest live faces
     /// among those that left it unfinished, the last to leave first; else the first untouched one
     /// in file order; `None` if all faces are drawn.
-    pub(super) fn after_dead_end(&mut self) -> Option<u32> {
+    pub(in crate::order) fn after_dead_end(&mut self) -> Option<u32> {
         if self.stranded {
             for (slot, stack) in self.dead_ends.iter_mut().enumerate() {
                 while let Some(vertex) = stack.pop() {

@@ -1,10 +1,10 @@
 //! The vertices in the cache by age, tidied up while they are looked at.
 
 /// A vertex and the clock at its push: a vertex may leave and enter again.
-pub(super) type Entry = (u32, u32);
+pub(in crate::order) type Entry = (u32, u32);
 
 /// The vertices in the cache, oldest first, among some that are finished or gone.
-pub(super) struct Queue {
+pub(in crate::order) struct Queue {
     entries: Vec<Entry>,
     head: usize,
     tail: usize,
@@ -12,7 +12,7 @@ pub(super) struct Queue {
 
 impl Queue {
     /// An empty queue for at most `size` vertices that count.
-    pub(super) fn new(size: u32) -> Self {
+    pub(in crate::order) fn new(size: u32) -> Self {
         Self {
             // The larger, the rarer the clean-up when the end is reached.
             entries: vec![(0, 0); 16 * (size as usize + 1)],
@@ -23,13 +23,13 @@ impl Queue {
 
     /// All entries, oldest first.
     #[inline]
-    pub(super) fn entries(&self) -> &[Entry] {
+    pub(in crate::order) fn entries(&self) -> &[Entry] {
         &self.entries[self.head..self.tail]
     }
 
     /// Puts an entry behind; `counts` says which of the others still count.
     #[inline]
-    pub(super) fn push(&mut self, entry: Entry, counts: impl Fn(Entry) -> bool) {
+    pub(in crate::order) fn push(&mut self, entry: Entry, counts: impl Fn(Entry) -> bool) {
         if self.tail == self.entries.len() {
             self.close_gaps(counts);
         }
@@ -40,7 +40,7 @@ impl Queue {
     /// Puts `kept` in the place of the first `scanned` entries, of which they are those that count:
     /// the others are passed over only once.
     #[inline]
-    pub(super) fn replace_front(&mut self, scanned: usize, kept: &[Entry]) {
+    pub(in crate::order) fn replace_front(&mut self, scanned: usize, kept: &[Entry]) {
         self.head += scanned - kept.len();
         if scanned != kept.len() {
             for (entry, &kept) in self.entries[self.head..].iter_mut().zip(kept) {

@@ -1,0 +1,43 @@
+//! Turning a face's corners so that hits come first.
+
+/// How a face is turned, and which of its turned corners may have to be pushed.
+pub(in crate::order) struct Turn {
+    pub(in crate::order) rotation: u8,
+    /// Corners that are not in the cache when the face starts.
+    pub(in crate::order) misses: u32,
+    /// First turned corner to look at.
+    first: usize,
+}
+
+impl Turn {
+    /// From 1 for each corner that is not in the cache, else 0.
+    #[inline]
+    pub(in crate::order) fn new<const KEEP_CORNERS: bool>(missing: [u32; 3]) -> Self {
+        let misses = missing[0] + missing[1] + missing[2];
+        if KEEP_CORNERS {
+            let (rotation, first) = (0, 0);
+            return Self {
+                rotation,
+                misses,
+                first,
+            };
+        }
+        let set = missing[0] | missing[1] << 1 | missing[2] << 2;
+        Self {
+            rotation: HITS_FIRST[set as usize & 7],
+            misses,
+            // Hits change nothing, and the misses are the last ones.
+            first: 3 - misses as usize,
+        }
+    }
+
+    #[inline]
+    pub(in crate::order) fn pushes(&self, corners: [u32; 3]) -> impl Iterator<Item = u32> {
+        let [a, b, c] = corners;
+        let turned = [[a, b, c], [b, c, a], [c, a, b]][self.rotation as usize];
+        turned.into_iter().skip(self.first)
+    }
+}
+
+/// How far to turn a face so that its hits come first, by the bit set of its missing corners.
+const HITS_FIRST: [u8; 8] = [0, 1, 2, 2, 0, 1, 0, 0];
