@@ -23,7 +23,7 @@ fn replay(faces: &[[u32; 3]], model: CacheModel, mut visit: impl FnMut(usize, u8
             let mut cache = Lru::new(size, vertex_count);
             each_corner(&mut |v| cache.miss(v), &mut visit);
         }
-        CacheModel::Controllable { size } => belady(faces, vertex_count, size, visit),
+        CacheModel::Controllable { size } => belady(faces, vertex_count, size, visit, |_| {}),
         CacheModel::Batch(batch) => {
             let mut cache = Batches::new(batch, vertex_count);
             for (number, &face) in faces.iter().enumerate() {
@@ -34,7 +34,7 @@ fn replay(faces: &[[u32; 3]], model: CacheModel, mut visit: impl FnMut(usize, u8
 }
 
 /// One past the largest index.
-fn vertex_span(faces: &[[u32; 3]]) -> usize {
+pub(super) fn vertex_span(faces: &[[u32; 3]]) -> usize {
     faces
         .iter()
         .flatten()
