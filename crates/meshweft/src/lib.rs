@@ -35,6 +35,7 @@ pub mod files;
 mod limits;
 mod mesh;
 pub mod order;
+mod parallel;
 mod permutation;
 
 pub use cache::CacheModel;

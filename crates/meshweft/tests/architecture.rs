@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 const LONGEST_FILE: usize = 800;
 
-/// What each module may name of the crate; `mesh, permutation ← adjacency ← cache ← order`, and
+/// What each module may name of the crate; `mesh, permutation ← adjacency ← cache ← order → partition`, and
 /// `files → mesh, permutation` only. The names at the root are their modules' types.
-const ALLOWED: [(&str, &[&str]); 8] = [
+const ALLOWED: [(&str, &[&str]); 10] = [
     ("error", &[]),
     ("limits", &[]),
     ("permutation", &["error", "limits"]),
@@ -16,6 +16,8 @@ const ALLOWED: [(&str, &[&str]); 8] = [
         "cache",
         &["error", "limits", "permutation", "mesh", "adjacency"],
     ),
+    ("parallel", &[]),
+    ("partition", &["error", "limits", "parallel"]),
     (
         "order",
         &[
@@ -25,6 +27,8 @@ const ALLOWED: [(&str, &[&str]); 8] = [
             "mesh",
             "adjacency",
             "cache",
+            "parallel",
+            "partition",
         ],
     ),
     ("files", BASE),

@@ -6,7 +6,9 @@
 pub mod baselines;
 mod greedy;
 mod k_cache_reorder;
+mod search;
 mod vertex_fetch;
 
 pub use k_cache_reorder::{KCacheReorder, Mode};
+pub use search::{Effort, Optimizer, ParseTargetError, Target};
 pub use vertex_fetch::vertex_fetch;

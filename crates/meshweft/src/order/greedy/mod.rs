@@ -8,4 +8,4 @@ mod turn;
 pub(in crate::order) use costs::Costs;
 pub(in crate::order) use live_faces::{HUB, LiveFaces};
 pub(in crate::order) use queue::{Entry, Queue};
-pub(in crate::order) use turn::Turn;
+pub(in crate::order) use turn::{HITS_FIRST, Turn};

@@ -40,4 +40,4 @@ impl Turn {
 }
 
 /// How far to turn a face so that its hits come first, by the bit set of its missing corners.
-const HITS_FIRST: [u8; 8] = [0, 1, 2, 2, 0, 1, 0, 0];
+pub(in crate::order) const HITS_FIRST: [u8; 8] = [0, 1, 2, 2, 0, 1, 0, 0];

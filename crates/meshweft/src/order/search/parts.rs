@@ -1,0 +1,274 @@
+//! Large meshes in parts, on as many threads as there are.
+
+use std::sync::atomic::AtomicUsize;
+use std::time::Instant;
+
+use super::bisect;
+use super::mask::Mask;
+use super::preset::{Preset, preset};
+use super::rollout::{Budget, Rollouts};
+use super::state::{CacheLimits, State};
+use super::{Effort, Optimizer};
+use crate::cache::CacheModel;
+use crate::limits::index32;
+use crate::mesh::Mesh;
+use crate::order::KCacheReorder;
+use crate::parallel;
+use crate::permutation::{FaceOrder, Permutation};
+
+/// Faces of a part, at least. A part starts with a cold cache and leaves unfinished vertices at its
+/// border: from this size on that costs less than a hundredth.
+const PART: usize = 1 << 16;
+
+/// Searches part by part.
+///
+/// A fast order comes first: it puts what is near on the mesh near in memory.
+pub(super) fn face_order(mesh: &Mesh, starts: Option<&[u32]>, optimizer: &Optimizer) -> FaceOrder {
+    let greedy = KCacheReorder {
+        cache: CacheModel::fifo(12),
+        keep_corners: optimizer.keep_corners,
+        ..KCacheReorder::default()
+    };
+    let mut first = match starts {
+        None => greedy.face_order(mesh),
+        Some(starts) => greedy.polygon_order(mesh, starts),
+    };
+    let mut faces = first.apply(mesh.faces());
+    let mut polygons = starts.map(|starts| polygons_in_order(first.new_to_old(), starts));
+    let mut ends = vec![faces.len()];
+    if faces.len() >= 2 * PART {
+        let (order, part_ends) =
+            bisect::compact_parts(&faces, mesh.vertex_count(), PART, polygons.as_deref());
+        faces = order.apply(&faces);
+        first = first.then(&order.into());
+        polygons = starts.map(|starts| polygons_in_order(first.new_to_old(), starts));
+        ends = part_ends;
+    }
+    let effort = match optimizer.time_budget {
+        Some(_) => Effort::Max,
+        None => optimizer.effort,
+    };
+    let preset = preset(optimizer.target, effort);
+    let budget = optimizer.time_budget.map(|time| Budget {
+        start: Instant::now(),
+        time,
+        faces: faces.len(),
+        done: AtomicUsize::new(0),
+    });
+    let mut numbers = vec![u32::MAX; mesh.vertex_count()];
+    let mut start = 0;
+    let parts = ends.iter().map(|&end| {
+        let (faces, vertex_count) = renumbered(&faces[start..end], &mut numbers);
+        let polygons = polygons.as_deref().map_or(&[][..], |p| &p[start..end]);
+        let here = |&polygon: &[u32; 2]| polygon.map(|face| face - index32(start));
+        let part = Part {
+            faces,
+            vertex_count,
+            polygons: polygons.iter().map(here).collect(),
+            keep_corners: optimizer.keep_corners || starts.is_some(),
+            seed: optimizer.seed ^ (start as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15),
+            preset: &preset,
+            budget: budget.as_ref(),
+        };
+        start = end;
+        part
+    });
+    let ordered = parallel::map(parts.collect(), |part: Part<'_>| part.search());
+    first.then(&joined(ordered, faces.len()))
+}
+
+/// The parts one after the other.
+///
+/// A part ends with its last full batch, so that the next one's batches start where it planned
+/// them; the few faces that are left over come last of all.
+fn joined(parts: Vec<Found>, face_count: usize) -> FaceOrder {
+    let mut new_to_old = Vec::with_capacity(face_count);
+    let mut rotations = Vec::with_capacity(face_count);
+    let mut left_over = Vec::new();
+    let mut start = 0;
+    for part in parts {
+        let kept = part.new_to_old.len() - part.left_over;
+        for (i, (&face, &rotation)) in part.new_to_old.iter().zip(&part.rotations).enumerate() {
+            let face = face + start;
+            if i < kept {
+                new_to_old.push(face);
+                rotations.push(rotation);
+            } else {
+                left_over.push((face, rotation));
+            }
+        }
+        start += index32(part.new_to_old.len());
+    }
+    for (face, rotation) in left_over {
+        new_to_old.push(face);
+        rotations.push(rotation);
+    }
+    let permutation = Permutation::from_algorithm(new_to_old);
+    FaceOrder::new(permutation, rotations).expect("one rotation below 3 a face")
+}
+
+/// For each face in the order, where its polygon begins and ends in the order.
+fn polygons_in_order(order: &[u32], starts: &[u32]) -> Vec<[u32; 2]> {
+    let mut size = vec![0_u32; order.len()];
+    for ends in starts.windows(2) {
+        size[ends[0] as usize..ends[1] as usize].fill(ends[1] - ends[0]);
+    }
+    let mut polygons: Vec<[u32; 2]> = Vec::with_capacity(order.len());
+    while polygons.len() < order.len() {
+        let start = index32(polygons.len());
+        let size = size[order[start as usize] as usize];
+        polygons.extend((0..size).map(|_| [start, start + size]));
+    }
+    polygons
+}
+
+/// Faces to be searched by themselves.
+struct Part<'a> {
+    faces: Vec<[u32; 3]>,
+    vertex_count: usize,
+    /// Where the polygon of each face begins and ends; empty where each face is on its own.
+    polygons: Vec<[u32; 2]>,
+    keep_corners: bool,
+    seed: u64,
+    preset: &'a Preset,
+    budget: Option<&'a Budget>,
+}
+
+/// The order of a part.
+struct Found {
+    new_to_old: Vec<u32>,
+    rotations: Vec<u8>,
+    /// How many faces behind are in a batch that is not full.
+    left_over: usize,
+}
+
+impl Part<'_> {
+    fn search(&self) -> Found {
+        let (first, second) = (self.preset.first, self.preset.second);
+        let is_short = self.preset.window <= u64::SPAN;
+        match (second, is_short) {
+            (None, true) => self.run::<u64, 1>([first]),
+            (None, false) => self.run::<u128, 1>([first]),
+            (Some(second), true) => self.run::<u64, 2>([first, second]),
+            (Some(second), false) => self.run::<u128, 2>([first, second]),
+        }
+    }
+
+    fn run<M: Mask, const CACHES: usize>(&self, limits: [CacheLimits; CACHES]) -> Found {
+        let mut state = State::<M, CACHES>::new(&self.faces, self.vertex_count, limits);
+        state.window = self.preset.window;
+        state.windows = self.preset.windows;
+        state.keep_corners = self.keep_corners;
+        state.polygons = &self.polygons;
+        let state = Rollouts::new(state, self.preset, self.seed).run(self.budget);
+        Found {
+            left_over: if self.polygons.is_empty() {
+                state.faces_in_batch()
+            } else {
+                0
+            },
+            new_to_old: state.new_to_old,
+            rotations: state.rotations,
+        }
+    }
+}
+
+/// The faces with vertices numbered by their first use, and how many there are.
+fn renumbered(faces: &[[u32; 3]], numbers: &mut [u32]) -> (Vec<[u32; 3]>, usize) {
+    let mut count = 0;
+    let mut used = Vec::new();
+    let mut number = |vertex: u32| {
+        let number = &mut numbers[vertex as usize];
+        if *number == u32::MAX {
+            *number = count;
+            count += 1;
+            used.push(vertex);
+        }
+        *number
+    };
+    let faces = faces.iter().map(|face| face.map(&mut number)).collect();
+    for vertex in used {
+        numbers[vertex as usize] = u32::MAX;
+    }
+    (faces, count as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cache;
+    use crate::order::{Effort, Target};
+
+    /// A square grid of `side` × `side` squares, row by row.
+    fn grid(side: u32) -> Vec<[u32; 3]> {
+        let square = |i: u32| {
+            let corner = i / side * (side + 1) + i % side;
+            let above = corner + side + 1;
+            [[corner, corner + 1, above], [corner + 1, above + 1, above]]
+        };
+        (0..side * side).flat_map(square).collect()
+    }
+
+    #[test]
+    fn batches_stay_aligned_across_parts() {
+        for model in [CacheModel::NVIDIA, CacheModel::AMD] {
+            let preset = preset(Target::Cache(model), Effort::Fast);
+            let (mut parts, mut faces, mut separately) = (Vec::new(), Vec::new(), 0);
+            for side in [9, 14, 23] {
+                let part = Part {
+                    faces: grid(side),
+                    vertex_count: ((side + 1) * (side + 1)) as usize,
+                    polygons: Vec::new(),
+                    keep_corners: false,
+                    seed: 0,
+                    preset: &preset,
+                    budget: None,
+                };
+                let found = part.search();
+                let kept = found.new_to_old.len() - found.left_over;
+                let permutation = Permutation::new(found.new_to_old.clone()).unwrap();
+                let order = FaceOrder::new(permutation, found.rotations.clone()).unwrap();
+                separately += cache::misses(&order.apply(&part.faces)[..kept], model);
+                let before = index32(faces.len());
+                faces.extend(
+                    part.faces
+                        .iter()
+                        .map(|face| face.map(|v| v + 1000 * before)),
+                );
+                parts.push(found);
+            }
+            let left_over: usize = parts.iter().map(|part| part.left_over).sum();
+            assert!(left_over > 0, "{model}: nothing to keep aligned");
+            let order = joined(parts, faces.len());
+            let kept = faces.len() - left_over;
+            assert_eq!(
+                cache::misses(&order.apply(&faces)[..kept], model),
+                separately
+            );
+        }
+    }
+
+    #[test]
+    fn parts_are_compact_and_complete() {
+        let faces = grid(120);
+        let shuffled = crate::order::baselines::random(faces.len(), 1).apply(&faces);
+        let (order, ends) = bisect::compact_parts(&shuffled, 121 * 121, 4000, None);
+        assert_eq!(ends.len(), 7);
+        let mut start = 0;
+        for &end in &ends {
+            assert!(end - start >= 4000);
+            let (_, vertices) = renumbered(
+                &order.apply(&shuffled)[start..end],
+                &mut vec![u32::MAX; 121 * 121],
+            );
+            // A compact piece of n faces has about n / 2 vertices and a short border.
+            assert!(
+                vertices * 2 < (end - start) * 11 / 10,
+                "{vertices} of {}",
+                end - start
+            );
+            start = end;
+        }
+        assert_eq!(start, faces.len());
+    }
+}

@@ -1,0 +1,179 @@
+//! The state against plain recounts, on meshes that nobody would model.
+
+use proptest::prelude::*;
+
+use super::caches::RING;
+use super::*;
+use crate::cache::{self, BatchModel, CacheModel};
+
+/// Faces of a few vertices: fans, repeated and degenerate faces all come up.
+fn soup() -> impl Strategy<Value = Vec<[u32; 3]>> {
+    prop_oneof![
+        prop::collection::vec(prop::array::uniform3(0..12_u32), 0..60),
+        prop::collection::vec(prop::array::uniform3(0..90_u32), 0..200),
+        // A strip with a random face here and there.
+        prop::collection::vec((0..80_u32, any::<bool>()), 0..200).prop_map(|faces| {
+            let face = |(i, odd): (u32, bool)| match odd {
+                true => [i, i + 9, i + 1],
+                false => [i + 1, i + 9, i + 10],
+            };
+            faces.into_iter().map(face).collect()
+        }),
+    ]
+}
+
+fn limits() -> impl Strategy<Value = CacheLimits> {
+    (3..40_u32, prop::option::of((1..40_u32, 3..40_u32))).prop_map(|(size, batch)| {
+        let (batch_faces, batch_vertices) = batch.unwrap_or((u32::MAX, u32::MAX));
+        CacheLimits {
+            batch_faces,
+            batch_vertices,
+            ..CacheLimits::fifo(size)
+        }
+    })
+}
+
+fn model(limits: CacheLimits) -> CacheModel {
+    let limit = |limit: u32| if limit == u32::MAX { 0 } else { limit };
+    CacheModel::Batch(BatchModel {
+        cache_size: limits.size,
+        batch_vertices: limit(limits.batch_vertices),
+        batch_faces: limit(limits.batch_faces),
+    })
+}
+
+fn turned<M, const CACHES: usize>(state: &State<'_, M, CACHES>) -> Vec<[u32; 3]> {
+    let orders = state.new_to_old.iter().zip(&state.rotations);
+    let turn = |(&face, &rotation): (&u32, &u8)| {
+        let mut corners = state.faces[face as usize];
+        corners.rotate_left(usize::from(rotation));
+        corners
+    };
+    orders.map(turn).collect()
+}
+
+impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
+    /// The counts of missing neighbours, faces left and candidates, from what is drawn alone.
+    fn assert_counts(&self) {
+        for (v, vertex) in (0_u32..).zip(&self.vertices[..self.vertices.len() - 1]) {
+            let mut missing = [0_u32; CACHES];
+            let mut live = 0;
+            for (face, _) in self
+                .faces
+                .iter()
+                .zip(&self.drawn)
+                .filter(|(_, drawn)| !**drawn)
+            {
+                for i in 0..3 {
+                    if face[i] == v {
+                        live += 1;
+                        for other in [face[(i + 1) % 3], face[(i + 2) % 3]] {
+                            for (cache, missing) in missing.iter_mut().enumerate() {
+                                *missing += u32::from(self.is_missing(other, cache));
+                            }
+                        }
+                    }
+                }
+            }
+            assert_eq!(vertex.live, live, "faces left of {v}");
+            for (cache, missing) in missing.into_iter().enumerate() {
+                let counted = vertex.missing >> (16 * cache) & 0xffff;
+                assert_eq!(counted, missing, "neighbours of {v} missing from {cache}");
+            }
+        }
+        let mut expected: Vec<u32> = (0..index32(self.vertices.len() - 1))
+            .filter(|&v| {
+                let vertex = &self.vertices[v as usize];
+                let age = self.caches[0].pushes - vertex.entered[0];
+                vertex.live != 0 && age <= self.window
+            })
+            .collect();
+        expected.sort_by_key(|&v| self.vertices[v as usize].entered[0]);
+        let mut candidates = Vec::new();
+        self.candidates(u32::MAX, |_, candidate| candidates.push(candidate.vertex));
+        assert_eq!(candidates, expected);
+    }
+}
+
+/// Draws everything, with attempts that are taken back between.
+fn draw_all<M: Mask, const CACHES: usize>(
+    faces: &[[u32; 3]],
+    limits: [CacheLimits; CACHES],
+    window: u32,
+    keep_corners: bool,
+    mut random: u64,
+) {
+    let vertex_count = faces
+        .as_flattened()
+        .iter()
+        .max()
+        .map_or(0, |&v| v as usize + 1);
+    let mut state = State::<M, CACHES>::new(faces, vertex_count, limits);
+    state.window = window.max(limits[0].size).min(M::SPAN);
+    state.keep_corners = keep_corners;
+    let mut any_live = |state: &State<'_, M, CACHES>| {
+        random = random.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
+        let from = u32::try_from((random >> 33) % (vertex_count as u64 + 1)).unwrap();
+        state.first_live(from).or_else(|| state.first_live(0))
+    };
+    while let Some(focus) = any_live(&state) {
+        let before = (
+            state.vertices.clone(),
+            state.drawn.clone(),
+            state.left.clone(),
+        );
+        let saved = state.save();
+        state.begin();
+        for _ in 0..4 {
+            if let Some(focus) = any_live(&state) {
+                state.draw::<true>(focus);
+                state.assert_counts();
+            }
+        }
+        state.undo(&saved);
+        let known = |vertices: &[Vertex<CACHES>]| -> Vec<_> {
+            let known = |v: &Vertex<CACHES>| (v.entered, v.row, v.live, v.missing);
+            vertices.iter().map(known).collect()
+        };
+        assert_eq!(known(&state.vertices), known(&before.0));
+        assert_eq!((&state.drawn, &state.left), (&before.1, &before.2));
+        state.draw::<false>(focus);
+        state.assert_counts();
+    }
+    assert_eq!(state.new_to_old.len(), faces.len());
+    let turned = turned(&state);
+    for (cache, limits) in state.caches.iter().zip(limits) {
+        let pushes = u64::from(cache.pushes) - RING as u64;
+        if limits.is_controllable {
+            assert!(pushes >= cache::misses(&turned, CacheModel::controllable(limits.size)));
+        } else {
+            assert_eq!(pushes, cache::misses(&turned, model(limits)), "{limits:?}");
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn one_cache_is_what_a_replay_counts(
+        faces in soup(), limits in limits(), window in 3..64_u32,
+        keep_corners in any::<bool>(), random in any::<u64>(),
+    ) {
+        draw_all::<u64, 1>(&faces, [limits], window, keep_corners, random);
+    }
+
+    #[test]
+    fn two_caches_are_what_replays_count(
+        faces in soup(), first in limits(), second in limits(), window in 3..128_u32,
+        keep_corners in any::<bool>(), random in any::<u64>(),
+    ) {
+        draw_all::<u128, 2>(&faces, [first, second], window, keep_corners, random);
+    }
+
+    #[test]
+    fn a_controllable_cache_counts_right(
+        faces in soup(), size in 3..30_u32, random in any::<u64>(),
+    ) {
+        let limits = CacheLimits { is_controllable: true, ..CacheLimits::fifo(size) };
+        draw_all::<u64, 1>(&faces, [limits], 64, false, random);
+    }
+}
