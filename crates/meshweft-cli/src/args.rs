@@ -3,9 +3,12 @@
 use std::fmt;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::str::FromStr;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use meshweft::CacheModel;
+use meshweft::order::Target;
 
 use crate::inputs::Shard;
 
@@ -26,7 +29,7 @@ pub(crate) enum Verb {
     /// is left as it is.
     ///
     ///   meshweft optimize scene.glb -o ordered.glb
-    ///   meshweft optimize scan.ply --in-place --cache fifo:16 --json
+    ///   meshweft optimize scan.ply --in-place --cache nvidia --effort best --json
     ///   meshweft optimize assets -o ordered --jobs 8 --keep-going --manifest done.jsonl
     #[command(verbatim_doc_comment)]
     Optimize(Optimize),
@@ -69,13 +72,24 @@ pub(crate) struct Optimize {
     /// Do everything but write
     #[arg(long)]
     pub(crate) dry_run: bool,
-    /// The cache to order for: fifo:K or controllable:K
+    /// What to order for: universal, fifo:K, lru:K, controllable:K, nvidia, amd or intel
     ///
-    /// An order made for a larger cache than the device has is bad, one made for a smaller cache
-    /// loses little: hence the small default.
-    #[arg(long, value_name = "MODEL", default_value = "fifo:12")]
-    pub(crate) cache: CacheModel,
-    /// fast, or faithful to the paper of Lin and Yu
+    /// universal is good for every cache size and GPU. An order made for a larger cache than the
+    /// device has is bad, one made for a smaller cache loses little.
+    #[arg(long, value_name = "MODEL", default_value = "universal")]
+    pub(crate) cache: Target,
+    /// How much time the order is worth
+    #[arg(long, value_enum, default_value_t = Effort::Fast)]
+    pub(crate) effort: Effort,
+    /// Search for about this long a file, such as 5s, 500ms or 2m, whatever the effort
+    ///
+    /// The result then depends on the machine.
+    #[arg(long, value_name = "TIME")]
+    pub(crate) time_budget: Option<TimeBudget>,
+    /// Where the random numbers of a search start: the same seed gives the same file
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// fast, or faithful to the paper of Lin and Yu; for fifo:K and controllable:K
     #[arg(long, value_enum, default_value_t = Mode::Fast)]
     pub(crate) mode: Mode,
     /// Never turn a face's corners (provoking vertex, data on edges)
@@ -87,15 +101,15 @@ pub(crate) struct Optimize {
     /// Write the new order even where it misses more
     #[arg(long)]
     pub(crate) allow_worse: bool,
-    /// Weight of a push
-    #[arg(long, value_name = "WEIGHT", default_value_t = 1.0)]
-    pub(crate) k1: f64,
-    /// Weight of a face drawn
-    #[arg(long, value_name = "WEIGHT", default_value_t = 0.5)]
-    pub(crate) k2: f64,
-    /// Weight of the distance from the front of a FIFO cache
-    #[arg(long, value_name = "WEIGHT", default_value_t = 1.3)]
-    pub(crate) k3: f64,
+    /// Weight of a push [default: 1]; for fifo:K and controllable:K
+    #[arg(long, value_name = "WEIGHT")]
+    pub(crate) k1: Option<f64>,
+    /// Weight of a face drawn [default: 0.5]; for fifo:K and controllable:K
+    #[arg(long, value_name = "WEIGHT")]
+    pub(crate) k2: Option<f64>,
+    /// Weight of the distance from the front of a FIFO cache [default: 1.3]; for fifo:K and controllable:K
+    #[arg(long, value_name = "WEIGHT")]
+    pub(crate) k3: Option<f64>,
     /// Write what was moved as JSON
     ///
     /// Read it as `out[i] = in[new_to_old[i]]`, for faces and vertices; new corner j of a face is
@@ -108,8 +122,8 @@ pub(crate) struct Optimize {
     /// Files to work on at once [default: as many as there are cores]
     #[arg(long, value_name = "N")]
     pub(crate) jobs: Option<NonZeroUsize>,
-    /// Threads for the meshes of one file; the output is the same for any number [default: the
-    /// cores that the jobs leave]
+    /// Threads for the meshes of one file, large ones in parts; the output is the same for any
+    /// number [default: the cores that the jobs leave]
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
     /// List what is done as JSON lines; a run with the same list goes on where it was cut off
@@ -253,6 +267,49 @@ pub(crate) enum Mode {
     Fast,
     /// The plain reading of the paper
     Faithful,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Effort {
+    /// A few times meshoptimizer's time at most
+    Fast,
+    /// About ten times meshoptimizer's time
+    Best,
+    /// Up to two hundred times meshoptimizer's time
+    Max,
+}
+
+impl fmt::Display for Effort {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fast => "fast",
+            Self::Best => "best",
+            Self::Max => "max",
+        })
+    }
+}
+
+/// A time such as `5s`, `500ms` or `2m`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TimeBudget(pub(crate) Duration);
+
+impl FromStr for TimeBudget {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let split = text.find(|c: char| c.is_ascii_alphabetic());
+        let (number, unit) = text.split_at(split.unwrap_or(text.len()));
+        let unit = match unit {
+            "ms" => 0.001,
+            "s" => 1.0,
+            "m" => 60.0,
+            "h" => 3600.0,
+            _ => return Err("a number with ms, s, m or h, such as 5s".into()),
+        };
+        let number: f64 = number.parse().map_err(|_| "no number before the unit")?;
+        let time = Duration::try_from_secs_f64(number * unit);
+        time.map(Self).map_err(|error| error.to_string())
+    }
 }
 
 /// What the command line asks for cannot be done; exit code 2.

@@ -1,5 +1,6 @@
 //! `optimize`: the main job.
 
+mod algorithm;
 mod batch;
 mod improve;
 mod interrupt;
@@ -13,18 +14,17 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use meshweft::CacheModel;
 use meshweft::files::{Document, Format, ReadOptions, remove_abandoned};
-use meshweft::order::{KCacheReorder, Mode};
+use meshweft::order::Target;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde_json::{Value, json};
 
 use crate::args::{self, Optimize, Usage};
 use crate::count::{Counts, by_model, ratio};
 use crate::output;
+use algorithm::Algorithm;
 use improve::Improvement;
 use jobs::Job;
 use manifest::Manifest;
-
-/// The largest cache that orders are made for here.
-const MAX_SIZE: u32 = 1024;
 
 /// What there is to say about a file.
 struct Outcome {
@@ -37,7 +37,11 @@ struct Outcome {
 
 /// Optimises each file.
 pub(crate) fn run(arguments: &Optimize) -> Result<()> {
-    check(arguments)?;
+    let algorithm = Algorithm::of(arguments)?;
+    if arguments.output.is_none() && !arguments.in_place && !arguments.dry_run {
+        let text = "where to? Give -o OUT, --in-place, or --dry-run";
+        return Err(Usage(text.into()).into());
+    }
     let jobs = jobs::jobs(arguments)?;
     let manifest = arguments.manifest.as_deref().map(Manifest::open);
     let manifest = manifest.transpose()?;
@@ -62,7 +66,7 @@ pub(crate) fn run(arguments: &Optimize) -> Result<()> {
         {
             return Ok(Outcome::of_earlier_run(job));
         }
-        let done = optimize(job, &shared, workers.threads, arguments);
+        let done = optimize(job, &shared, &algorithm, &workers.threads()?, arguments);
         if let (Some(manifest), false) = (&manifest, arguments.dry_run) {
             let _whole = interrupt::hold_off();
             let total = done.as_ref().map(|outcome| outcome.json["total"].clone());
@@ -114,38 +118,19 @@ impl Workers {
         let threads = arguments.threads.map_or(cores.div_ceil(jobs), usize::from);
         Self { jobs, threads }
     }
-}
 
-/// Refuses what cannot be done before any file is touched.
-fn check(arguments: &Optimize) -> Result<(), Usage> {
-    let size = arguments.cache.size();
-    match arguments.cache {
-        CacheModel::Fifo { .. } | CacheModel::Controllable { .. } if size <= MAX_SIZE => {}
-        CacheModel::Fifo { .. } | CacheModel::Controllable { .. } => {
-            return Err(Usage(format!(
-                "--cache {}: orders are made for caches of 3 to {MAX_SIZE} vertices",
-                arguments.cache
-            )));
-        }
-        other => {
-            return Err(Usage(format!(
-                "--cache {other}: orders are made for fifo:K and controllable:K; fifo:10 and \
-                 fifo:12 do well on GPUs, and inspect counts for {other}"
-            )));
-        }
+    /// The threads for a file.
+    fn threads(&self) -> Result<ThreadPool> {
+        let threads = ThreadPoolBuilder::new().num_threads(self.threads).build();
+        threads.context("no threads to work with")
     }
-    if arguments.output.is_none() && !arguments.in_place && !arguments.dry_run {
-        return Err(Usage(
-            "where to? Give -o OUT, --in-place, or --dry-run".into(),
-        ));
-    }
-    Ok(())
 }
 
 fn optimize(
     job: &Job,
     shared: &[PathBuf],
-    threads: usize,
+    algorithm: &Algorithm,
+    threads: &ThreadPool,
     arguments: &Optimize,
 ) -> Result<Outcome> {
     let Job { input, target } = job;
@@ -157,21 +142,10 @@ fn optimize(
     options.across_groups = arguments.across_groups;
     options.keep_buffers = shared.to_vec();
     let mut document = Document::open(input, options)?;
-    let algorithm = KCacheReorder {
-        cache: arguments.cache,
-        mode: match arguments.mode {
-            args::Mode::Fast => Mode::Fast,
-            args::Mode::Faithful => Mode::Faithful,
-        },
-        k1: arguments.k1,
-        k2: arguments.k2,
-        k3: arguments.k3,
-        keep_corners: arguments.keep_corners,
-        first_focus: None,
-    };
     let models = models(arguments.cache);
     let before = counts(&document, &models);
-    let improvement = improve::improve(document.meshes(), &algorithm, threads, arguments);
+    let meshes = document.meshes();
+    let improvement = threads.install(|| improve::improve(meshes, algorithm, arguments));
     improvement.apply(&mut document)?;
     let after = counts(&document, &models);
 
@@ -238,11 +212,15 @@ fn write_unchanged(document: &Document, path: &Path, target: &Path) -> Result<()
     Ok(document.write(target)?)
 }
 
-/// The cache that was ordered for, and the usual ones.
-fn models(cache: CacheModel) -> Vec<CacheModel> {
-    let mut models = vec![cache];
+/// The caches that were ordered for, and the usual ones.
+fn models(target: Target) -> Vec<CacheModel> {
+    let mut models = target.models().to_vec();
     let usual = args::Caches { models: Vec::new() }.models();
-    models.extend(usual.into_iter().filter(|&model| model != cache));
+    models.extend(
+        usual
+            .into_iter()
+            .filter(|model| !target.models().contains(model)),
+    );
     models
 }
 
@@ -292,21 +270,28 @@ fn outcome(
         "file": shown(document.path()),
         "output": written.then(|| shown(target)),
         "cache": arguments.cache.to_string(),
+        "effort": arguments.effort.to_string(),
         "mode": match arguments.mode { args::Mode::Fast => "fast", args::Mode::Faithful => "faithful" },
         "meshes": meshes,
         "total": change(&total[0], &total[1]),
         "notes": output::notes_json(document),
     });
-    let first = |counts: &Counts| counts.acmr().next().map_or(0.0, |(_, acmr)| acmr);
+    let ordered_for = |model: &CacheModel| {
+        !matches!(model, CacheModel::Batch(_)) && arguments.cache.models().contains(model)
+    };
+    let caches = total[0].acmr().zip(total[1].acmr());
+    let caches = caches.filter(|((model, _), _)| ordered_for(model));
+    let caches = caches.map(|((model, a), (_, b))| format!("{model} {a:.4} -> {b:.4}"));
+    let caches: Vec<_> = caches.collect();
     let mut text = format!(
-        "{}\n  {} faces, {} vertices\n  misses per face, {}: {:.4} -> {:.4}",
+        "{}\n  {} faces, {} vertices",
         shown(document.path()),
         total[0].faces,
         total[0].vertices,
-        arguments.cache,
-        first(&total[0]),
-        first(&total[1]),
     );
+    if !caches.is_empty() {
+        text += &format!("\n  misses per face: {}", caches.join(", "));
+    }
     let gpus = total[0].atvr().zip(total[1].atvr());
     let gpus = gpus.filter(|((model, _), _)| matches!(model, CacheModel::Batch(_)));
     let gpus = gpus.map(|((model, a), (_, b))| format!("{model} {a:.3} -> {b:.3}"));

@@ -1,15 +1,17 @@
 //! Better orders for the meshes of a file, found before the file is touched.
 
 use std::collections::BTreeMap;
-use std::sync::Mutex;
 
 use anyhow::Result;
 use meshweft::files::{Document, MeshEntry};
-use meshweft::order::{KCacheReorder, Mode, vertex_fetch};
-use meshweft::{CacheModel, FaceOrder, Mesh, VertexOrder, cache};
+use meshweft::order::{Target, vertex_fetch};
+use meshweft::{CacheModel, FaceOrder, VertexOrder, cache};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use super::algorithm::Algorithm;
 use crate::args::Optimize;
+use crate::count::ratio;
 
 /// Most rounds; see [`improve`].
 const MAX_ROUNDS: usize = 64;
@@ -41,11 +43,11 @@ struct FaceChange {
 ///
 /// A second round starts from another state and may find another order; it is taken if it misses
 /// less. The last round finds nothing, and the program run on its own output starts with just that
-/// round: it changes nothing. The faithful mode runs once, as the paper does.
+/// round: it changes nothing. The faithful mode runs once, as the paper does, and so does a search
+/// that was given its time.
 pub(super) fn improve(
     entries: &[MeshEntry],
-    algorithm: &KCacheReorder,
-    threads: usize,
+    algorithm: &Algorithm,
     arguments: &Optimize,
 ) -> Improvement {
     // Orders go by connectivity alone.
@@ -59,17 +61,19 @@ pub(super) fn improve(
         faces: entries.iter().map(unchanged).collect(),
         vertices: vertex_groups(&entries),
     };
-    let once = algorithm.mode == Mode::Faithful || arguments.allow_worse;
+    let once = algorithm.runs_once() || arguments.allow_worse;
     let rounds = if once { 1 } else { MAX_ROUNDS };
+    let face_count = entries.iter().map(|entry| entry.mesh.face_count()).sum();
     for _ in 0..rounds {
-        let mut moved = vec![false; entries.len()];
-        let each = entries
-            .iter_mut()
-            .zip(&mut improvement.faces)
-            .zip(&mut moved);
-        in_parallel(threads, each, |((entry, change), moved)| {
-            *moved = change.improve(entry, algorithm, arguments.allow_worse);
-        });
+        let work = |(entry, change): (&mut MeshEntry, &mut FaceChange)| {
+            change.improve(entry, algorithm, face_count, arguments.allow_worse)
+        };
+        let each = (&mut entries, &mut improvement.faces);
+        let moved: Vec<bool> = match arguments.time_budget {
+            None => each.into_par_iter().with_max_len(1).map(work).collect(),
+            // One after the other: each has its share of the time.
+            Some(_) => each.0.iter_mut().zip(each.1).map(work).collect(),
+        };
         let mut changed = moved.iter().any(|&moved| moved);
         if !arguments.keep_vertex_order {
             changed |= improvement.improve_vertices(&mut entries, &moved);
@@ -79,29 +83,6 @@ pub(super) fn improve(
         }
     }
     improvement
-}
-
-/// Calls `work` with each item, on several threads; nothing depends on which takes which.
-fn in_parallel<T: Send>(
-    threads: usize,
-    items: impl ExactSizeIterator<Item = T> + Send,
-    work: impl Fn(T) + Sync,
-) {
-    let threads = threads.min(items.len());
-    if threads <= 1 {
-        return items.for_each(work);
-    }
-    let items = Mutex::new(items);
-    let next = || items.lock().unwrap_or_else(|lock| lock.into_inner()).next();
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while let Some(item) = next() {
-                    work(item);
-                }
-            });
-        }
-    });
 }
 
 /// The groups whose vertices may move, each with an order that moves nothing.
@@ -121,32 +102,32 @@ fn vertex_groups(entries: &[MeshEntry]) -> BTreeMap<usize, VertexChange> {
 }
 
 impl FaceChange {
-    /// Orders the faces of `entry` if that misses less; whether it did.
+    /// Orders the faces of `entry`, one of the meshes with `face_count` faces together, if that
+    /// misses less; whether it did.
     fn improve(
         &mut self,
         entry: &mut MeshEntry,
-        algorithm: &KCacheReorder,
+        algorithm: &Algorithm,
+        face_count: usize,
         allow_worse: bool,
     ) -> bool {
         let turnable = entry.corners_turnable && entry.polygons.is_none();
-        let algorithm = KCacheReorder {
-            keep_corners: algorithm.keep_corners || !turnable,
-            ..algorithm.clone()
-        };
-        let is_fifo = matches!(algorithm.cache, CacheModel::Fifo { .. });
+        let target = algorithm.target();
         let mut scheduled = 0;
-        let order = entry.record_order(|mesh, polygons| match polygons {
-            Some(starts) if is_fifo => algorithm.polygon_order(mesh, starts),
-            _ => order_and_count(&algorithm, mesh, &mut scheduled),
+        let order = entry.record_order(|mesh, polygons| {
+            let share = ratio(mesh.face_count() as f64, face_count);
+            let (order, pushes) = algorithm.for_mesh(share, turnable).order(mesh, polygons);
+            scheduled += pushes;
+            order
         });
         if order.is_identity() {
             return false;
         }
-        let misses = |entry: &MeshEntry| cache::misses(entry.mesh.faces(), algorithm.cache);
-        let before = misses(entry);
+        let before = target.misses(entry.mesh.faces());
         let mut ordered = entry.clone();
         ordered.apply_faces(&order);
-        if misses(&ordered) >= before && !allow_worse {
+        let after = target.misses(ordered.mesh.faces());
+        if !algorithm.is_gain(before, after) && !allow_worse {
             if self.order.is_identity() {
                 self.reason = Some("the order found does not miss less");
             }
@@ -155,20 +136,9 @@ impl FaceChange {
         *entry = ordered;
         self.order = self.order.then(&order);
         self.reason = None;
-        let is_controllable = matches!(algorithm.cache, CacheModel::Controllable { .. });
+        let is_controllable = matches!(target, Target::Cache(CacheModel::Controllable { .. }));
         self.scheduled = is_controllable.then_some(scheduled);
         true
-    }
-}
-
-fn order_and_count(algorithm: &KCacheReorder, mesh: &Mesh, scheduled: &mut u64) -> FaceOrder {
-    match algorithm.cache {
-        CacheModel::Controllable { .. } => {
-            let (order, schedule) = algorithm.schedule(mesh);
-            *scheduled += schedule.pushes();
-            order
-        }
-        _ => algorithm.face_order(mesh),
     }
 }
 

@@ -135,7 +135,8 @@ fn the_permutation_leads_from_the_input_to_the_output() {
     for more in [
         &[][..],
         &["--keep-corners"],
-        &["--mode", "faithful"],
+        &["--mode", "faithful", "--cache", "fifo:12"],
+        &["--effort", "best"],
         &["--keep-vertex-order"],
     ] {
         let mut flags = vec![
@@ -261,6 +262,59 @@ fn different_triangles_are_told_apart() {
 }
 
 #[test]
+fn every_target_and_effort_keeps_the_triangles_and_settles() {
+    let folder = Folder::new("targets");
+    folder.write("grid.obj", grid_obj());
+    let targets = [
+        "universal",
+        "fifo:12",
+        "lru:24",
+        "controllable:10",
+        "nvidia",
+        "amd",
+        "intel",
+    ];
+    for target in targets {
+        let mut fast = f64::INFINITY;
+        for effort in ["fast", "best"] {
+            let run = |input, output, more: &[&str]| {
+                let flags = [
+                    "optimize", input, "-o", output, "--cache", target, "--effort", effort,
+                ];
+                folder.run(&[&flags, more].concat())
+            };
+            let report = run("grid.obj", "out.obj", &["--json", "--threads", "1"]).json();
+            assert_eq!(report["cache"], target);
+            assert_eq!(report["effort"], effort);
+            let model = match target {
+                "universal" => "fifo:16",
+                one => one,
+            };
+            let after = report["total"]["acmr"]["after"][model].as_f64().unwrap();
+            assert!(after < 1.0 && after < fast * 1.05, "{target} {effort}");
+            fast = after;
+            let compared = folder.run(&["compare", "grid.obj", "out.obj", "--json"]);
+            assert_eq!(compared.json()["same_triangles"], true);
+            assert_eq!(
+                run("grid.obj", "two.obj", &["--threads", "2"]).code(),
+                0,
+                "{target} {effort}"
+            );
+            assert_eq!(folder.read("out.obj"), folder.read("two.obj"));
+            let again = run("out.obj", "again.obj", &[]);
+            assert!(
+                again.out().contains("nothing to improve"),
+                "{target} {effort}: {}",
+                again.out()
+            );
+        }
+    }
+    let timed = ["optimize", "grid.obj", "-o", "out.obj", "--time-budget"];
+    let run = folder.run(&[&timed[..], &["100ms", "--json"]].concat());
+    assert!(run.json()["total"]["acmr"]["after"]["fifo:16"].as_f64() < Some(0.7));
+}
+
+#[test]
 fn exit_codes_tell_files_from_usage() {
     let folder = Folder::new("exit");
     folder.write("grid.obj", grid_obj());
@@ -289,7 +343,9 @@ fn exit_codes_tell_files_from_usage() {
     for usage in [
         &["optimize", "grid.obj"][..],
         &["optimize", "grid.obj", "-o", "x.obj", "--cache", "fifo:2"],
-        &["optimize", "grid.obj", "-o", "x.obj", "--cache", "nvidia"],
+        &["optimize", "grid.obj", "-o", "x.obj", "--cache", "voodoo"],
+        &["optimize", "grid.obj", "-o", "x.obj", "--mode", "faithful"],
+        &["optimize", "grid.obj", "-o", "x.obj", "--time-budget", "5"],
         &[
             "optimize",
             "grid.obj",

@@ -17,11 +17,11 @@
 //!
 //! Read `rollout` for the loop, `state` for how a run is taken back, `parts` for threads.
 
-mod bisect;
 mod mask;
 mod parts;
 mod preset;
 mod rollout;
+mod slabs;
 mod state;
 
 use std::fmt;

@@ -3,47 +3,29 @@
 use std::sync::atomic::AtomicUsize;
 use std::time::Instant;
 
-use super::bisect;
 use super::mask::Mask;
 use super::preset::{Preset, preset};
 use super::rollout::{Budget, Rollouts};
+use super::slabs;
 use super::state::{CacheLimits, State};
 use super::{Effort, Optimizer};
-use crate::cache::CacheModel;
 use crate::limits::index32;
 use crate::mesh::Mesh;
-use crate::order::KCacheReorder;
 use crate::parallel;
 use crate::permutation::{FaceOrder, Permutation};
 
-/// Faces of a part, at least. A part starts with a cold cache and leaves unfinished vertices at its
-/// border: from this size on that costs less than a hundredth.
-const PART: usize = 1 << 16;
+/// Faces of a part, at least. A part starts with a cold cache and transforms the vertices at its
+/// border once more than the whole would: at this size that costs less than a hundredth.
+const PART: usize = 1 << 17;
 
 /// Searches part by part.
-///
-/// A fast order comes first: it puts what is near on the mesh near in memory.
 pub(super) fn face_order(mesh: &Mesh, starts: Option<&[u32]>, optimizer: &Optimizer) -> FaceOrder {
-    let greedy = KCacheReorder {
-        cache: CacheModel::fifo(12),
-        keep_corners: optimizer.keep_corners,
-        ..KCacheReorder::default()
+    let face_count = mesh.face_count();
+    let polygons = starts.map(polygons);
+    let (order, ends) = match part_count(face_count) {
+        1 => (Permutation::identity(face_count), vec![face_count]),
+        parts => slabs::compact_parts(mesh, parts, polygons.as_deref()),
     };
-    let mut first = match starts {
-        None => greedy.face_order(mesh),
-        Some(starts) => greedy.polygon_order(mesh, starts),
-    };
-    let mut faces = first.apply(mesh.faces());
-    let mut polygons = starts.map(|starts| polygons_in_order(first.new_to_old(), starts));
-    let mut ends = vec![faces.len()];
-    if faces.len() >= 2 * PART {
-        let (order, part_ends) =
-            bisect::compact_parts(&faces, mesh.vertex_count(), PART, polygons.as_deref());
-        faces = order.apply(&faces);
-        first = first.then(&order.into());
-        polygons = starts.map(|starts| polygons_in_order(first.new_to_old(), starts));
-        ends = part_ends;
-    }
     let effort = match optimizer.time_budget {
         Some(_) => Effort::Max,
         None => optimizer.effort,
@@ -52,19 +34,21 @@ pub(super) fn face_order(mesh: &Mesh, starts: Option<&[u32]>, optimizer: &Optimi
     let budget = optimizer.time_budget.map(|time| Budget {
         start: Instant::now(),
         time,
-        faces: faces.len(),
+        faces: face_count,
         done: AtomicUsize::new(0),
     });
     let mut numbers = vec![u32::MAX; mesh.vertex_count()];
     let mut start = 0;
     let parts = ends.iter().map(|&end| {
-        let (faces, vertex_count) = renumbered(&faces[start..end], &mut numbers);
-        let polygons = polygons.as_deref().map_or(&[][..], |p| &p[start..end]);
-        let here = |&polygon: &[u32; 2]| polygon.map(|face| face - index32(start));
+        let members = &order.new_to_old()[start..end];
+        let faces = members.iter().map(|&face| mesh.faces()[face as usize]);
+        let (faces, vertex_count) = renumbered(faces, &mut numbers);
         let part = Part {
             faces,
             vertex_count,
-            polygons: polygons.iter().map(here).collect(),
+            polygons: polygons
+                .as_ref()
+                .map_or(Vec::new(), |polygons| polygons_of(members, polygons)),
             keep_corners: optimizer.keep_corners || starts.is_some(),
             seed: optimizer.seed ^ (start as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15),
             preset: &preset,
@@ -74,7 +58,15 @@ pub(super) fn face_order(mesh: &Mesh, starts: Option<&[u32]>, optimizer: &Optimi
         part
     });
     let ordered = parallel::map(parts.collect(), |part: Part<'_>| part.search());
-    first.then(&joined(ordered, faces.len()))
+    FaceOrder::from(order).then(&joined(ordered, face_count))
+}
+
+/// In how many parts to cut so many faces: a power of two, which as many threads share evenly.
+fn part_count(faces: usize) -> usize {
+    match faces / PART {
+        0 | 1 => 1,
+        most => 1 << most.ilog2(),
+    }
 }
 
 /// The parts one after the other.
@@ -87,9 +79,9 @@ fn joined(parts: Vec<Found>, face_count: usize) -> FaceOrder {
     let mut left_over = Vec::new();
     let mut start = 0;
     for part in parts {
-        let kept = part.new_to_old.len() - part.left_over;
-        for (i, (&face, &rotation)) in part.new_to_old.iter().zip(&part.rotations).enumerate() {
-            let face = face + start;
+        let kept = part.order.len() - part.left_over;
+        for (i, &face) in part.order.new_to_old().iter().enumerate() {
+            let (face, rotation) = (face + start, part.order.rotation(i));
             if i < kept {
                 new_to_old.push(face);
                 rotations.push(rotation);
@@ -97,7 +89,7 @@ fn joined(parts: Vec<Found>, face_count: usize) -> FaceOrder {
                 left_over.push((face, rotation));
             }
         }
-        start += index32(part.new_to_old.len());
+        start += index32(part.order.len());
     }
     for (face, rotation) in left_over {
         new_to_old.push(face);
@@ -107,19 +99,20 @@ fn joined(parts: Vec<Found>, face_count: usize) -> FaceOrder {
     FaceOrder::new(permutation, rotations).expect("one rotation below 3 a face")
 }
 
-/// For each face in the order, where its polygon begins and ends in the order.
-fn polygons_in_order(order: &[u32], starts: &[u32]) -> Vec<[u32; 2]> {
-    let mut size = vec![0_u32; order.len()];
-    for ends in starts.windows(2) {
-        size[ends[0] as usize..ends[1] as usize].fill(ends[1] - ends[0]);
-    }
-    let mut polygons: Vec<[u32; 2]> = Vec::with_capacity(order.len());
-    while polygons.len() < order.len() {
-        let start = index32(polygons.len());
-        let size = size[order[start as usize] as usize];
-        polygons.extend((0..size).map(|_| [start, start + size]));
-    }
-    polygons
+/// For each face, where its polygon begins and ends.
+fn polygons(starts: &[u32]) -> Vec<[u32; 2]> {
+    let polygon =
+        |ends: &[u32]| std::iter::repeat_n([ends[0], ends[1]], (ends[1] - ends[0]) as usize);
+    starts.windows(2).flat_map(polygon).collect()
+}
+
+/// Where the polygon of each member begins and ends among the members.
+fn polygons_of(members: &[u32], polygons: &[[u32; 2]]) -> Vec<[u32; 2]> {
+    let place = |(i, &face): (u32, &u32)| {
+        let [start, end] = polygons[face as usize];
+        [i + start - face, i + end - face]
+    };
+    (0..).zip(members).map(place).collect()
 }
 
 /// Faces to be searched by themselves.
@@ -136,8 +129,7 @@ struct Part<'a> {
 
 /// The order of a part.
 struct Found {
-    new_to_old: Vec<u32>,
-    rotations: Vec<u8>,
+    order: FaceOrder,
     /// How many faces behind are in a batch that is not full.
     left_over: usize,
 }
@@ -161,20 +153,23 @@ impl Part<'_> {
         state.keep_corners = self.keep_corners;
         state.polygons = &self.polygons;
         let state = Rollouts::new(state, self.preset, self.seed).run(self.budget);
+        let left_over = match self.polygons.is_empty() {
+            true => state.faces_in_batch(),
+            false => 0,
+        };
+        let order = Permutation::from_algorithm(state.new_to_old);
         Found {
-            left_over: if self.polygons.is_empty() {
-                state.faces_in_batch()
-            } else {
-                0
-            },
-            new_to_old: state.new_to_old,
-            rotations: state.rotations,
+            order: FaceOrder::new(order, state.rotations).expect("one rotation below 3 a face"),
+            left_over,
         }
     }
 }
 
 /// The faces with vertices numbered by their first use, and how many there are.
-fn renumbered(faces: &[[u32; 3]], numbers: &mut [u32]) -> (Vec<[u32; 3]>, usize) {
+fn renumbered(
+    faces: impl Iterator<Item = [u32; 3]>,
+    numbers: &mut [u32],
+) -> (Vec<[u32; 3]>, usize) {
     let mut count = 0;
     let mut used = Vec::new();
     let mut number = |vertex: u32| {
@@ -186,7 +181,7 @@ fn renumbered(faces: &[[u32; 3]], numbers: &mut [u32]) -> (Vec<[u32; 3]>, usize)
         }
         *number
     };
-    let faces = faces.iter().map(|face| face.map(&mut number)).collect();
+    let faces = faces.map(|face| face.map(&mut number)).collect();
     for vertex in used {
         numbers[vertex as usize] = u32::MAX;
     }
@@ -196,7 +191,7 @@ fn renumbered(faces: &[[u32; 3]], numbers: &mut [u32]) -> (Vec<[u32; 3]>, usize)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cache;
+    use crate::cache::{self, CacheModel};
     use crate::order::{Effort, Target};
 
     /// A square grid of `side` × `side` squares, row by row.
@@ -225,16 +220,12 @@ mod tests {
                     budget: None,
                 };
                 let found = part.search();
-                let kept = found.new_to_old.len() - found.left_over;
-                let permutation = Permutation::new(found.new_to_old.clone()).unwrap();
-                let order = FaceOrder::new(permutation, found.rotations.clone()).unwrap();
-                separately += cache::misses(&order.apply(&part.faces)[..kept], model);
+                let kept = found.order.len() - found.left_over;
+                let alone = found.order.apply(&grid(side));
+                separately += cache::misses(&alone[..kept], model);
                 let before = index32(faces.len());
-                faces.extend(
-                    part.faces
-                        .iter()
-                        .map(|face| face.map(|v| v + 1000 * before)),
-                );
+                let moved = |face: [u32; 3]| face.map(|v| v + 1000 * before);
+                faces.extend(grid(side).into_iter().map(moved));
                 parts.push(found);
             }
             let left_over: usize = parts.iter().map(|part| part.left_over).sum();
@@ -252,13 +243,14 @@ mod tests {
     fn parts_are_compact_and_complete() {
         let faces = grid(120);
         let shuffled = crate::order::baselines::random(faces.len(), 1).apply(&faces);
-        let (order, ends) = bisect::compact_parts(&shuffled, 121 * 121, 4000, None);
+        let mesh = Mesh::connectivity_only(121 * 121, shuffled.clone()).unwrap();
+        let (order, ends) = slabs::compact_parts(&mesh, 7, None);
         assert_eq!(ends.len(), 7);
         let mut start = 0;
         for &end in &ends {
             assert!(end - start >= 4000);
             let (_, vertices) = renumbered(
-                &order.apply(&shuffled)[start..end],
+                order.apply(&shuffled)[start..end].iter().copied(),
                 &mut vec![u32::MAX; 121 * 121],
             );
             // A compact piece of n faces has about n / 2 vertices and a short border.

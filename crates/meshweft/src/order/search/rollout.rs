@@ -78,6 +78,7 @@ impl Budget {
     }
 }
 
+/// Most random numbers that noise is taken from.
 const NOISES: usize = 4096;
 /// Most candidates of any window.
 const MAX_CANDIDATES: usize = 128;
@@ -101,7 +102,9 @@ struct Run {
 impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
     pub(super) fn new(state: State<'a, M, CACHES>, preset: &'a Preset, seed: u64) -> Self {
         let mut random = seed.wrapping_add(1);
-        let noises = (0..NOISES + MAX_CANDIDATES).map(|_| {
+        // Many meshes are tiny: no more lots for them than they can draw.
+        let lots = (8 * state.face_count()).clamp(1, NOISES);
+        let noises = (0..lots + MAX_CANDIDATES).map(|_| {
             random = next_random(random);
             ((random >> 32).cast_signed() * preset.horizon.noise) >> 32
         });
@@ -138,18 +141,21 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
                     self.state.draw::<false>(focus);
                 }
             } else {
-                self.best_of(runs, &mut winner, &mut spare);
+                let is_drawn = self.best_of(runs, &mut winner, &mut spare);
                 let commit = horizon.commit.clamp(1, winner.path.len());
                 for focus in winner.path.drain(..commit) {
-                    self.state.draw::<false>(focus);
+                    if !is_drawn {
+                        self.state.draw::<false>(focus);
+                    }
                 }
             }
         }
     }
 
     /// Runs continuations from here; `winner`, which holds what is left of the last winner, becomes
-    /// the best of them.
-    fn best_of(&mut self, runs: usize, winner: &mut Run, spare: &mut Run) {
+    /// the best of them. Whether it is drawn already: the last one is not taken back if it wins and
+    /// is to be drawn as a whole.
+    fn best_of(&mut self, runs: usize, winner: &mut Run, spare: &mut Run) -> bool {
         let horizon = self.preset.horizon;
         self.state.reset_exits();
         let saved = self.state.save();
@@ -159,7 +165,7 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
             spare.path.clear();
             spare.marks.clear();
             self.state.begin();
-            let mut is_behind = false;
+            let (mut is_behind, mut is_whole) = (false, true);
             for step in 0..horizon.steps {
                 let focus = match kept.get(step) {
                     Some(&focus) => Some(focus),
@@ -170,6 +176,7 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
                 spare.path.push(focus);
                 if self.state.live(focus) > HUB {
                     // Too long to be run again and again: whoever comes to it stops there.
+                    is_whole = false;
                     break;
                 }
                 self.state.draw::<true>(focus);
@@ -188,10 +195,15 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
                 if score < best {
                     best = score;
                     std::mem::swap(winner, spare);
+                    if number + 1 == runs && is_whole && horizon.commit >= horizon.steps {
+                        self.state.keep();
+                        return true;
+                    }
                 }
             }
             self.state.undo(&saved);
         }
+        false
     }
 
     /// The score since `drawn` faces were drawn.
@@ -239,7 +251,7 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
         if NOISE {
             self.random = next_random(self.random);
         }
-        let offset = (self.random >> 40) as usize % NOISES;
+        let offset = (self.random >> 40) as usize % (self.noises.len() - MAX_CANDIDATES);
         let noises = &self.noises[offset..offset + MAX_CANDIDATES];
         let (weights, size) = (&self.preset.weights, self.preset.first.size);
         let mut best = 0;

@@ -235,6 +235,16 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.window_exits = saved.window_exits;
     }
 
+    /// Leaves the attempt as it is.
+    pub(super) fn keep(&mut self) {
+        self.overwritten.clear();
+    }
+
+    /// How many faces there are, drawn or not.
+    pub(super) fn face_count(&self) -> usize {
+        self.faces.len()
+    }
+
     /// The vertex, after remembering what it was before this attempt.
     #[inline]
     fn change<const UNDO: bool>(&mut self, vertex: u32) -> &mut Vertex<CACHES> {

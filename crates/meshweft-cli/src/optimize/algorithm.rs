@@ -1,0 +1,208 @@
+//! What orders the faces: chosen by the flags, checked before any file is touched.
+
+use std::time::Duration;
+
+use meshweft::cache::Schedule;
+use meshweft::order::{self, KCacheReorder, Optimizer, Target};
+use meshweft::{CacheModel, FaceOrder, Mesh};
+
+use crate::args::{Effort, Mode, Optimize, Usage};
+
+/// The largest cache that orders are made for here.
+const MAX_SIZE: u32 = 1024;
+
+/// A way to order faces.
+#[derive(Debug, Clone)]
+pub(super) struct Algorithm {
+    optimizer: Optimizer,
+    /// Instead of the optimizer, with what it does not have: the paper's plain reading, weights.
+    greedy: Option<KCacheReorder>,
+}
+
+impl Algorithm {
+    /// The one that the flags ask for.
+    pub(super) fn of(arguments: &Optimize) -> Result<Self, Usage> {
+        check_size(arguments.cache)?;
+        let effort = match arguments.effort {
+            Effort::Fast => order::Effort::Fast,
+            Effort::Best => order::Effort::Best,
+            Effort::Max => order::Effort::Max,
+        };
+        let optimizer = Optimizer {
+            target: arguments.cache,
+            effort,
+            seed: arguments.seed,
+            keep_corners: arguments.keep_corners,
+            time_budget: arguments.time_budget.map(|budget| budget.0),
+        };
+        let is_faithful = arguments.mode == Mode::Faithful;
+        let weights = [arguments.k1, arguments.k2, arguments.k3];
+        if !is_faithful && weights == [None; 3] {
+            return Ok(Self {
+                optimizer,
+                greedy: None,
+            });
+        }
+        let flag = match is_faithful {
+            true => "--mode faithful",
+            false => "a weight (--k1, --k2, --k3)",
+        };
+        let cache = match arguments.cache {
+            Target::Cache(cache @ (CacheModel::Fifo { .. } | CacheModel::Controllable { .. })) => {
+                cache
+            }
+            other => {
+                return Err(Usage(format!(
+                    "{flag} is for --cache fifo:K and controllable:K, not for {other}"
+                )));
+            }
+        };
+        if effort != order::Effort::Fast || arguments.time_budget.is_some() {
+            return Err(Usage(format!(
+                "{flag} is for the greedy: leave out --effort and --time-budget"
+            )));
+        }
+        let usual = KCacheReorder::default();
+        let [k1, k2, k3] = weights;
+        let greedy = KCacheReorder {
+            cache,
+            mode: match arguments.mode {
+                Mode::Fast => order::Mode::Fast,
+                Mode::Faithful => order::Mode::Faithful,
+            },
+            k1: k1.unwrap_or(usual.k1),
+            k2: k2.unwrap_or(usual.k2),
+            k3: k3.unwrap_or(usual.k3),
+            keep_corners: arguments.keep_corners,
+            first_focus: None,
+        };
+        Ok(Self {
+            optimizer,
+            greedy: Some(greedy),
+        })
+    }
+
+    /// What the order is to be good for.
+    pub(super) fn target(&self) -> Target {
+        self.optimizer.target
+    }
+
+    /// Whether a second time on its own output can help nothing that is asked for.
+    pub(super) fn runs_once(&self) -> bool {
+        let mode = self.greedy.as_ref().map(|greedy| greedy.mode);
+        mode == Some(order::Mode::Faithful) || self.optimizer.time_budget.is_some()
+    }
+
+    /// Whether an order with `after` misses for `before` is worth writing.
+    ///
+    /// Started again from its own output, an algorithm that does not look at every cache or that
+    /// draws lots goes up and down by a little for ever; what is within that is no gain.
+    pub(super) fn is_gain(&self, before: u64, after: u64) -> bool {
+        let thousandths = match (self.optimizer.effort, self.optimizer.target) {
+            (order::Effort::Fast, Target::Cache(_)) => 0,
+            (order::Effort::Fast, _) => 2,
+            _ => 5,
+        };
+        after < before - before * thousandths / 1000
+    }
+
+    /// The same for a mesh that has `share` of all faces, and whose corners may be turned or not.
+    pub(super) fn for_mesh(&self, share: f64, turnable: bool) -> Self {
+        let mut algorithm = self.clone();
+        let budget = &mut algorithm.optimizer.time_budget;
+        *budget = budget.map(|time| time.mul_f64(share).max(Duration::from_millis(1)));
+        algorithm.optimizer.keep_corners |= !turnable;
+        if let Some(greedy) = &mut algorithm.greedy {
+            greedy.keep_corners |= !turnable;
+        }
+        algorithm
+    }
+
+    /// The order of the faces, the polygons that begin at `starts` kept whole, and the pushes of
+    /// its schedule for a controllable cache.
+    pub(super) fn order(&self, mesh: &Mesh, starts: Option<&[u32]>) -> (FaceOrder, u64) {
+        let Target::Cache(CacheModel::Controllable { size }) = self.target() else {
+            let order = match (&self.greedy, starts) {
+                (None, None) => self.optimizer.face_order(mesh),
+                (None, Some(starts)) => self.optimizer.polygon_order(mesh, starts),
+                (Some(greedy), None) => greedy.face_order(mesh),
+                (Some(greedy), Some(starts)) => greedy.polygon_order(mesh, starts),
+            };
+            return (order, 0);
+        };
+        let is_search = self.optimizer.effort != order::Effort::Fast
+            || self.optimizer.time_budget.is_some()
+            || starts.is_some();
+        if self.greedy.is_none() && is_search {
+            let order = match starts {
+                Some(starts) => self.optimizer.polygon_order(mesh, starts),
+                None => self.optimizer.face_order(mesh),
+            };
+            let pushes = Schedule::fewest_pushes(&order.apply(mesh.faces()), size).pushes();
+            return (order, pushes);
+        }
+        let greedy = self.greedy.clone().unwrap_or(KCacheReorder {
+            cache: CacheModel::controllable(size),
+            keep_corners: self.optimizer.keep_corners,
+            ..KCacheReorder::default()
+        });
+        let (order, schedule) = greedy.schedule(mesh);
+        (order, schedule.pushes())
+    }
+}
+
+fn check_size(target: Target) -> Result<(), Usage> {
+    match target {
+        Target::Cache(cache) if cache.size() > MAX_SIZE => Err(Usage(format!(
+            "--cache {cache}: orders are made for caches of 3 to {MAX_SIZE} vertices"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::args::{Arguments, Verb};
+
+    fn algorithm(flags: &str) -> Result<Algorithm, Usage> {
+        let words = format!("meshweft optimize a.obj --dry-run {flags}");
+        let arguments = Arguments::parse_from(words.split_whitespace());
+        let Verb::Optimize(arguments) = arguments.verb else {
+            panic!("another verb")
+        };
+        Algorithm::of(&arguments)
+    }
+
+    #[test]
+    fn weights_and_the_faithful_mode_are_the_greedys() {
+        for flags in ["--mode faithful", "--k3 2"] {
+            for cache in ["fifo:12", "controllable:9"] {
+                let found = algorithm(&format!("{flags} --cache {cache}")).unwrap();
+                assert!(found.greedy.is_some());
+            }
+            for others in ["", "--cache nvidia", "--cache fifo:12 --effort best"] {
+                let refused = algorithm(&format!("{flags} {others}"));
+                assert!(refused.is_err(), "{flags} {others}");
+            }
+        }
+        assert!(algorithm("--cache fifo:1025").is_err());
+        let universal = algorithm("--effort max --seed 7 --time-budget 1.5s").unwrap();
+        assert_eq!(universal.target(), Target::Universal);
+        assert_eq!(universal.optimizer.seed, 7);
+        let budget = universal.for_mesh(0.5, true).optimizer.time_budget;
+        assert_eq!(budget, Some(Duration::from_millis(750)));
+        assert!(universal.runs_once());
+    }
+
+    #[test]
+    fn what_goes_up_and_down_is_no_gain() {
+        let fast = algorithm("--cache fifo:12").unwrap();
+        assert!(fast.is_gain(1000, 999) && !fast.is_gain(1000, 1000));
+        let best = algorithm("--effort best").unwrap();
+        assert!(best.is_gain(10_000, 9_949) && !best.is_gain(10_000, 9_950));
+        assert!(best.is_gain(90, 89), "small meshes are exact");
+    }
+}

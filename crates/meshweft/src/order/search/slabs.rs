@@ -1,0 +1,141 @@
+//! Compact parts of a mesh, by connectivity alone.
+
+use crate::adjacency::Adjacency;
+use crate::limits::index32;
+use crate::mesh::Mesh;
+use crate::permutation::Permutation;
+
+/// The faces in parts of like size, and where each part ends.
+///
+/// Cuts the mesh across into slabs, by the distance from its first face, and each slab by the
+/// distance from the slab's first face: as many pieces as there are slabs, so that both ways a part
+/// is about as long. Inside a part faces keep their order; polygons, if any, stay whole.
+///
+/// Time O(faces), space 36 bytes a face.
+pub(super) fn compact_parts(
+    mesh: &Mesh,
+    parts: usize,
+    polygons: Option<&[[u32; 2]]>,
+) -> (Permutation, Vec<usize>) {
+    let (faces, vertex_count) = (mesh.faces(), mesh.vertex_count());
+    let mut slicing = Slicing {
+        faces,
+        adjacency: Adjacency::new(faces, vertex_count),
+        polygons,
+        part: vec![0; faces.len()],
+        reached: vec![0; faces.len()],
+        fans: vec![0; vertex_count],
+        walks: 0,
+        queue: Vec::new(),
+        parts: 1,
+    };
+    let mut members: Vec<u32> = (0..index32(faces.len())).collect();
+    let slabs = parts.isqrt().max(1);
+    let mut ends = Vec::new();
+    let mut start = 0;
+    // Slabs of as many faces as they are to have parts.
+    let shares: Vec<usize> = (0..slabs)
+        .map(|i| (i + 1) * parts / slabs - i * parts / slabs)
+        .collect();
+    for (end, share) in slicing.slice(&mut members, &shares).into_iter().zip(shares) {
+        let inside = slicing.slice(&mut members[start..end], &vec![1; share]);
+        ends.extend(inside.into_iter().map(|inside| start + inside));
+        start = end;
+    }
+    (Permutation::from_algorithm(members), ends)
+}
+
+struct Slicing<'a> {
+    faces: &'a [[u32; 3]],
+    adjacency: Adjacency,
+    polygons: Option<&'a [[u32; 2]]>,
+    /// The part of each face, and the number of the next part.
+    part: Vec<u32>,
+    parts: u32,
+    /// The last walk that reached each face, and that went round each vertex.
+    reached: Vec<u32>,
+    fans: Vec<u32>,
+    walks: u32,
+    /// Faces in the order in which the walk reached them.
+    queue: Vec<u32>,
+}
+
+impl Slicing<'_> {
+    /// Puts the members, which are one part, slice after slice by their distance from the first
+    /// one; where each slice ends. The slices have sizes as the shares.
+    fn slice(&mut self, members: &mut [u32], shares: &[usize]) -> Vec<usize> {
+        if shares.len() < 2 || members.is_empty() {
+            return vec![members.len(); shares.len()];
+        }
+        self.walk(members);
+        let total: usize = shares.iter().sum();
+        let first_part = self.parts;
+        let (mut start, mut sum) = (0, 0);
+        for share in shares {
+            sum += share;
+            let end = members.len() * sum / total;
+            for &face in &self.queue[start..end] {
+                self.part[face as usize] = self.parts;
+            }
+            self.parts += 1;
+            start = end;
+        }
+        if let Some(polygons) = self.polygons {
+            // Each goes where its first face went.
+            for &face in &*members {
+                let [first, _] = polygons[face as usize];
+                self.part[face as usize] = self.part[first as usize];
+            }
+        }
+        // By counting, so that what was near in memory stays so.
+        let slice_of = |face: u32| (self.part[face as usize] - first_part) as usize;
+        let mut next = vec![0; shares.len() + 1];
+        for &face in &*members {
+            next[slice_of(face) + 1] += 1;
+        }
+        for i in 1..next.len() {
+            next[i] += next[i - 1];
+        }
+        let ends = next[1..].to_vec();
+        self.queue.copy_from_slice(members);
+        for &face in &self.queue {
+            let slot = &mut next[slice_of(face)];
+            members[*slot] = face;
+            *slot += 1;
+        }
+        ends
+    }
+
+    /// Lists the members by their distance from the first, and piece by piece what does not hang
+    /// together with it.
+    fn walk(&mut self, members: &[u32]) {
+        self.walks += 1;
+        self.queue.clear();
+        let part = self.part[members[0] as usize];
+        for &piece in members {
+            if self.reached[piece as usize] == self.walks {
+                continue;
+            }
+            self.reached[piece as usize] = self.walks;
+            let mut next = self.queue.len();
+            self.queue.push(piece);
+            while let Some(&face) = self.queue.get(next) {
+                next += 1;
+                for vertex in self.faces[face as usize] {
+                    // Once round each vertex, however many faces it has.
+                    if std::mem::replace(&mut self.fans[vertex as usize], self.walks) == self.walks
+                    {
+                        continue;
+                    }
+                    for &near in self.adjacency.faces_of(vertex) {
+                        let reached = &mut self.reached[near as usize];
+                        if *reached != self.walks && self.part[near as usize] == part {
+                            *reached = self.walks;
+                            self.queue.push(near);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
