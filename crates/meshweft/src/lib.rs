@@ -36,6 +36,7 @@ mod limits;
 mod mesh;
 pub mod order;
 mod parallel;
+pub mod partition;
 mod permutation;
 
 pub use cache::CacheModel;

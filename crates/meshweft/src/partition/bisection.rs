@@ -1,0 +1,121 @@
+//! One cut in two.
+
+use super::coarsen::coarser;
+use super::graph::Graph;
+use super::next_random;
+use super::refine::Sides;
+use crate::limits::index32;
+
+/// What is asked of a cut.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bisection {
+    /// The weight that the first side should have.
+    pub(crate) first: u64,
+    /// The most that each side may weigh; more only where vertices are too heavy to do better.
+    pub(crate) most: [u64; 2],
+    pub(crate) seed: u64,
+    /// Graphs of fewer vertices are cut without making them coarser.
+    pub(crate) coarsest: usize,
+    /// From how many seeds the coarsest graph is cut.
+    pub(crate) tries: u32,
+}
+
+/// For each vertex, whether it is on the second side.
+///
+/// Time O(vertices + edges), times the logarithm of the boundary.
+pub(crate) fn halves(graph: &Graph, asked: &Bisection) -> Vec<bool> {
+    let mut random = asked.seed;
+    let mut levels: Vec<(Graph, Vec<u32>)> = Vec::new();
+    // No vertex heavier than a fifth of what balance needs at the coarsest level.
+    let heaviest = (graph.weight() / (asked.coarsest as u64).max(1)).max(1) * 3 / 2;
+    loop {
+        let finest = levels.last().map_or(graph, |(graph, _)| graph);
+        if finest.vertex_count() <= asked.coarsest {
+            break;
+        }
+        match coarser(finest, heaviest.max(2), &mut random) {
+            Some(level) => levels.push(level),
+            None => break,
+        }
+    }
+    let coarsest = levels.last().map_or(graph, |(graph, _)| graph);
+    let mut side = grown(coarsest, asked, &mut random);
+    while let Some((_, group_of)) = levels.pop() {
+        let finer = levels.last().map_or(graph, |(graph, _)| graph);
+        let inherited = group_of.iter().map(|&group| side[group as usize]).collect();
+        let mut sides = Sides::new(finer, inherited, asked.most);
+        sides.refine(PASSES, patience(finer));
+        side = sides.side;
+    }
+    side
+}
+
+const PASSES: usize = 8;
+
+/// Moves without a better cut before a pass is given up.
+fn patience(graph: &Graph) -> usize {
+    (graph.vertex_count() / 50).clamp(25, 400)
+}
+
+/// The best of several cuts: the first side grows from a vertex far from another one.
+fn grown(graph: &Graph, asked: &Bisection, random: &mut u64) -> Vec<bool> {
+    let mut best: Option<Sides<'_>> = None;
+    for _ in 0..asked.tries.max(1) {
+        *random = next_random(*random);
+        let vertex_count = graph.vertex_count();
+        let start = match vertex_count {
+            0 => 0,
+            count => index32(usize::try_from(*random % count as u64).unwrap_or(0)),
+        };
+        let end = by_distance(graph, start).last().copied();
+        let order = by_distance(graph, end.unwrap_or(0));
+        let mut side = vec![true; vertex_count];
+        let mut weight = 0;
+        for vertex in order {
+            let next = weight + u64::from(graph.weights[vertex as usize]);
+            // Nearer to what is asked for without it than with it.
+            if next > asked.first && next - asked.first > asked.first - weight {
+                break;
+            }
+            weight = next;
+            side[vertex as usize] = false;
+            if weight >= asked.first {
+                break;
+            }
+        }
+        let mut sides = Sides::new(graph, side, asked.most);
+        sides.refine(PASSES, patience(graph));
+        let is_better = best
+            .as_ref()
+            .is_none_or(|best| (sides.excess(), sides.cut) < (best.excess(), best.cut));
+        if is_better {
+            best = Some(sides);
+        }
+    }
+    best.map_or(Vec::new(), |sides| sides.side)
+}
+
+/// All vertices by their distance from `start`, and piece by piece what does not hang together with
+/// it.
+fn by_distance(graph: &Graph, start: u32) -> Vec<u32> {
+    let vertex_count = graph.vertex_count();
+    let mut is_reached = vec![false; vertex_count];
+    let mut order = Vec::with_capacity(vertex_count);
+    let mut next = 0;
+    let starts = (vertex_count > 0).then_some(start).into_iter();
+    for piece in starts.chain(0..index32(vertex_count)) {
+        if std::mem::replace(&mut is_reached[piece as usize], true) {
+            continue;
+        }
+        order.push(piece);
+        while let Some(&vertex) = order.get(next) {
+            next += 1;
+            for &(other, _) in graph.row(vertex) {
+                if !std::mem::replace(&mut is_reached[other as usize], true) {
+                    order.push(other);
+                }
+            }
+        }
+    }
+    order
+}

@@ -1,0 +1,61 @@
+//! Coarser graphs by heavy-edge matching.
+
+use super::graph::Graph;
+use super::{next_random, shuffled};
+use crate::limits::index32;
+
+/// A graph of about half as many vertices, and the vertex that each of this one's is part of;
+/// `None` where too few could be paired.
+///
+/// Each vertex, in random order, is paired with the neighbour of the heaviest edge among those that
+/// are still alone: that edge can no longer be cut. Pairs heavier than `most` are not made, so that
+/// the coarsest vertices can still be balanced.
+pub(super) fn coarser(graph: &Graph, most: u64, random: &mut u64) -> Option<(Graph, Vec<u32>)> {
+    const ALONE: u32 = u32::MAX;
+    let vertex_count = graph.vertex_count();
+    let mut group_of = vec![ALONE; vertex_count];
+    *random = next_random(*random);
+    let mut count = 0;
+    for vertex in shuffled(vertex_count, *random) {
+        if group_of[vertex as usize] != ALONE {
+            continue;
+        }
+        let weight = u64::from(graph.weights[vertex as usize]);
+        let mut best = None;
+        // The heaviest edge; among equals to the lightest vertex, so that weights stay alike.
+        let mut most_key = (0, 0);
+        for &(other, edge) in graph.row(vertex) {
+            let other_weight = graph.weights[other as usize];
+            let key = (edge, u32::MAX - other_weight);
+            if group_of[other as usize] == ALONE
+                && key > most_key
+                && weight + u64::from(other_weight) <= most
+            {
+                most_key = key;
+                best = Some(other);
+            }
+        }
+        group_of[vertex as usize] = count;
+        if let Some(other) = best {
+            group_of[other as usize] = count;
+        }
+        count += 1;
+    }
+    if count as usize * 20 > vertex_count * 19 {
+        return None;
+    }
+    // Numbered by their first member: what was near in memory stays so.
+    let mut number = vec![ALONE; count as usize];
+    let mut next = 0;
+    for group in &mut group_of {
+        let number = &mut number[*group as usize];
+        if *number == ALONE {
+            *number = next;
+            next += 1;
+        }
+        *group = *number;
+    }
+    debug_assert_eq!(next, index32(count as usize));
+    let coarse = graph.contracted(&group_of, count as usize);
+    Some((coarse, group_of))
+}

@@ -1,0 +1,85 @@
+//! Balanced cuts of graphs: few edges between parts of like weight.
+//!
+//! Multilevel bisection (G. Karypis, V. Kumar: *A Fast and High Quality Multilevel Scheme for
+//! Partitioning Irregular Graphs*, SIAM Journal on Scientific Computing 20, 1998,
+//! doi:10.1137/S1064827595287997). The graph is made coarser by contracting heavy edges until it is
+//! tiny; the tiny graph is cut by growing one side from a seed; on the way back each finer graph
+//! inherits the cut and moves vertices across it ([`Multilevel`]). More parts come from halving
+//! again, the two halves side by side, and a last pass moves vertices between any two of them.
+//!
+//! Read `graph`, then `bisection`; `refine` is where cuts get good.
+
+mod bisection;
+mod coarsen;
+mod graph;
+mod k_way;
+#[cfg(feature = "metis")]
+mod metis;
+mod refine;
+
+pub use graph::Graph;
+pub use k_way::Multilevel;
+#[cfg(feature = "metis")]
+pub use metis::{Metis, MetisError};
+
+use crate::limits::index32;
+
+/// The weight of all edges between different parts; `parts[vertex]` is the part of each vertex.
+///
+/// # Panics
+/// If there are fewer entries than vertices.
+///
+/// # Complexity
+/// Time O(vertices + edges).
+#[must_use]
+pub fn edge_cut(graph: &Graph, parts: &[u32]) -> u64 {
+    let mut cut = 0;
+    for (vertex, &part) in (0..index32(graph.vertex_count())).zip(parts) {
+        let is_cut = |(other, _): &(u32, u32)| parts[*other as usize] != part;
+        let edges = graph.neighbours(vertex).filter(is_cut);
+        cut += edges.map(|(_, weight)| u64::from(weight)).sum::<u64>();
+    }
+    cut / 2
+}
+
+/// How many times the mean the heaviest of `count` parts weighs: 1 if all weigh the same.
+///
+/// # Panics
+/// If a part is not below `count`.
+#[must_use]
+pub fn imbalance(graph: &Graph, parts: &[u32], count: u32) -> f64 {
+    let weights = part_weights(graph, parts, count);
+    let most = weights.iter().max().copied().unwrap_or_default();
+    most as f64 * f64::from(count) / (graph.weight() as f64).max(1.0)
+}
+
+fn part_weights(graph: &Graph, parts: &[u32], count: u32) -> Vec<u64> {
+    let mut weights = vec![0; count as usize];
+    for (&part, &weight) in parts.iter().zip(&graph.weights) {
+        weights[part as usize] += u64::from(weight);
+    }
+    weights
+}
+
+/// 0 to `count`, in an order that `random` decides (Fisher, Yates).
+fn shuffled(count: usize, mut random: u64) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..index32(count)).collect();
+    for i in (1..order.len()).rev() {
+        random = next_random(random);
+        // The high bits of the product with i + 1 are evenly spread below it.
+        let below = (u128::from(random) * (i as u128 + 1)) >> 64;
+        order.swap(i, usize::try_from(below).unwrap_or(0));
+    }
+    order
+}
+
+/// The next number of the generator SplitMix64 (G. Steele, D. Lea, C. Flood, 2014), mixed.
+fn next_random(random: u64) -> u64 {
+    let mut z = random.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests;
