@@ -1,70 +1,111 @@
-//! Prints misses per face and per vertex of every order there is to compare, as Markdown.
+//! Prints misses per face and per vertex of every order there is to compare, and what each took, as
+//! Markdown.
 //!
-//! `cargo run --release --bin quality -- [mesh files]`; without files five meshes of the test data.
+//! ```text
+//! cargo run --release --bin quality -- [--only TEXT]... [mesh files]
+//! ```
+//!
+//! `--only` leaves out the orders whose name has none of the texts. Without files five meshes of the
+//! test data.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use compare::rivals::{self, Meshopt};
-use meshweft::order::{KCacheReorder, Mode, baselines};
-use meshweft::{CacheModel, Mesh, cache};
-
-const SIZES: [u32; 6] = [10, 12, 16, 24, 32, 64];
-const GPUS: [CacheModel; 3] = [CacheModel::NVIDIA, CacheModel::AMD, CacheModel::INTEL];
+use meshweft::order::universal::{Cutter, RecursiveCut};
+use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target, baselines};
+use meshweft::{CacheModel, FaceOrder, Mesh, cache};
 
 fn main() -> ExitCode {
-    let mut files: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run() -> Result<(), String> {
+    let (mut only, mut files) = (Vec::new(), Vec::new());
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--only" => only.push(arguments.next().ok_or("--only asks for a text")?),
+            _ => files.push(PathBuf::from(argument)),
+        }
+    }
     if files.is_empty() {
-        let Some(data) = compare::data_folder() else {
-            eprintln!("name mesh files, or set MESHWEFT_DATA to the folder of test data");
-            return ExitCode::from(2);
-        };
+        let data = compare::data_folder();
+        let data =
+            data.ok_or("name mesh files, or set MESHWEFT_DATA to the folder of test data")?;
         files = compare::default_mesh_files(&data);
     }
-    let sizes = SIZES.map(|size| format!("K={size}")).join(" | ");
-    println!("| mesh | order | {sizes} | NVIDIA | AMD | Intel |");
-    println!("|---|---|{}", "--:|".repeat(SIZES.len() + GPUS.len()));
+    println!(
+        "| mesh | order | K=10 | 12 | 16 | 24 | 32 | 64 | NVIDIA | AMD | Intel | Mfaces/s | time |"
+    );
+    println!("|---|---|{}", "--:|".repeat(Target::UNIVERSAL.len() + 2));
     for file in files {
-        let mesh = match compare::oracle::read(&file) {
-            Ok(mesh) => mesh,
-            Err(error) => {
-                eprintln!("{error}");
-                return ExitCode::FAILURE;
-            }
-        };
+        let mesh = compare::oracle::read(&file).map_err(|error| error.to_string())?;
         let name = compare::mesh_name(&file);
-        for (order, faces) in orders(&mesh) {
-            let acmr = SIZES.map(|size| cache::acmr(&faces, CacheModel::fifo(size)));
-            let atvr = GPUS.map(|gpu| cache::atvr(&faces, gpu));
-            let figures: Vec<f64> = acmr.into_iter().chain(atvr).collect();
-            let cells: Vec<String> = figures.iter().map(|f| format!("{f:.3}")).collect();
-            println!("| {name} | {order} | {} |", cells.join(" | "));
+        let (meshopt, _) = timed(&|mesh| Meshopt::VertexCache.ordered(mesh), &mesh);
+        for (order, make) in orders() {
+            if !only.is_empty() && !only.iter().any(|text| order.contains(text)) {
+                continue;
+            }
+            let (seconds, faces) = timed(&make, &mesh);
+            let figures = Target::UNIVERSAL.map(|model| match model {
+                CacheModel::Batch(_) => cache::atvr(&faces, model),
+                _ => cache::acmr(&faces, model),
+            });
+            let cells = figures.map(|f| format!("{f:.3}")).join(" | ");
+            let speed = mesh.face_count() as f64 / seconds / 1e6;
+            let time = seconds / meshopt;
+            println!("| {name} | {order} | {cells} | {speed:.2} | {time:.2}x |");
         }
     }
     println!();
     println!("K: misses per face (ACMR) of a FIFO cache. NVIDIA, AMD, Intel: misses per vertex");
-    println!("(ATVR) of the batch models that meshoptimizer's analyzer is run with.");
-    ExitCode::SUCCESS
+    println!("(ATVR) of the batch models that meshoptimizer's analyzer is run with. Time on one");
+    println!("thread, in that of `meshopt_optimizeVertexCache` on the same mesh.");
+    Ok(())
 }
 
-fn orders(mesh: &Mesh) -> Vec<(String, Vec<[u32; 3]>)> {
-    let faces = mesh.faces();
-    let meshopt = |order: Meshopt| order.ordered(mesh);
-    let k_cache_reorder = |mode, size| {
-        let algorithm = KCacheReorder {
-            cache: CacheModel::fifo(size),
-            mode,
-            ..Default::default()
-        };
-        algorithm.face_order(mesh).apply(faces)
-    };
-    let mut orders = vec![
-        ("as in the file".to_owned(), faces.to_vec()),
+/// The median of three runs in seconds (of one, if it takes long), and the faces in order.
+fn timed(make: &dyn Fn(&Mesh) -> Vec<[u32; 3]>, mesh: &Mesh) -> (f64, Vec<[u32; 3]>) {
+    let mut seconds = Vec::new();
+    loop {
+        let start = Instant::now();
+        let faces = make(mesh);
+        seconds.push(start.elapsed().as_secs_f64());
+        if seconds.len() == 3 || seconds[0] > 2.0 {
+            return (compare::timing::median(seconds), faces);
+        }
+    }
+}
+
+type Make = Box<dyn Fn(&Mesh) -> Vec<[u32; 3]>>;
+
+fn ours(order: impl Fn(&Mesh) -> FaceOrder + 'static) -> Make {
+    Box::new(move |mesh| order(mesh).apply(mesh.faces()))
+}
+
+fn orders() -> Vec<(String, Make)> {
+    let meshopt = |order: Meshopt| -> Make { Box::new(move |mesh| order.ordered(mesh)) };
+    let mut orders: Vec<(String, Make)> = vec![
+        (
+            "as in the file".to_owned(),
+            Box::new(|mesh| mesh.faces().to_vec()),
+        ),
         (
             "random".to_owned(),
-            baselines::random(faces.len(), 1).apply(faces),
+            ours(|mesh| baselines::random(mesh.face_count(), 1).into()),
         ),
-        ("forsyth 1.0.1".to_owned(), rivals::forsyth(faces)),
+        (
+            "forsyth 1.0.1".to_owned(),
+            Box::new(|mesh| rivals::forsyth(mesh.faces())),
+        ),
         (
             "meshopt VertexCache".to_owned(),
             meshopt(Meshopt::VertexCache),
@@ -76,18 +117,50 @@ fn orders(mesh: &Mesh) -> Vec<(String, Vec<[u32; 3]>)> {
         orders.push((name, meshopt(Meshopt::Fifo(size))));
     }
     for size in [12, 16, 32] {
-        let tipsify = baselines::tipsify(mesh, size).apply(faces);
-        orders.push((format!("Tipsify, ours, K={size}"), tipsify));
+        let name = format!("Tipsify, ours, K={size}");
+        orders.push((name, ours(move |mesh| baselines::tipsify(mesh, size))));
     }
-    for size in [10, 12, 16, 32] {
+    for cutter in [Cutter::Metis, Cutter::Multilevel] {
+        let algorithm = RecursiveCut {
+            cutter,
+            ..RecursiveCut::default()
+        };
+        let name = match cutter {
+            Cutter::Multilevel => "**recursive cut**",
+            _ => "recursive cut by METIS",
+        };
         orders.push((
-            format!("**fast, K={size}**"),
-            k_cache_reorder(Mode::Fast, size),
+            name.to_owned(),
+            ours(move |mesh| algorithm.face_order(mesh)),
         ));
     }
-    for size in [12, 16] {
-        let name = format!("faithful, K={size}");
-        orders.push((name, k_cache_reorder(Mode::Faithful, size)));
+    for size in [10, 12, 16, 32] {
+        for mode in [Mode::Fast, Mode::Faithful] {
+            if mode == Mode::Faithful && ![12, 16].contains(&size) {
+                continue;
+            }
+            let algorithm = KCacheReorder {
+                cache: CacheModel::fifo(size),
+                mode,
+                ..KCacheReorder::default()
+            };
+            let name = match mode {
+                Mode::Faithful => format!("K-Cache-Reorder, faithful, K={size}"),
+                _ => format!("K-Cache-Reorder, K={size}"),
+            };
+            orders.push((name, ours(move |mesh| algorithm.face_order(mesh))));
+        }
+    }
+    for target in ["universal", "fifo:12", "fifo:32", "nvidia", "amd", "intel"] {
+        for (effort, word) in [(Effort::Fast, ""), (Effort::Best, ", best")] {
+            let optimizer = Optimizer {
+                target: target.parse().expect("a target"),
+                effort,
+                ..Optimizer::default()
+            };
+            let name = format!("**{target}{word}**");
+            orders.push((name, ours(move |mesh| optimizer.face_order(mesh))));
+        }
     }
     orders
 }

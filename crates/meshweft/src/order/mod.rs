@@ -5,10 +5,13 @@
 
 pub mod baselines;
 mod greedy;
+mod grid;
 mod k_cache_reorder;
 mod search;
+pub mod universal;
 mod vertex_fetch;
 
+pub use grid::Grid;
 pub use k_cache_reorder::{KCacheReorder, Mode};
 pub use search::{Effort, Optimizer, ParseTargetError, Target};
 pub use vertex_fetch::vertex_fetch;

@@ -18,6 +18,10 @@ pub(crate) struct Bisection {
     pub(crate) coarsest: usize,
     /// From how many seeds the coarsest graph is cut.
     pub(crate) tries: u32,
+    /// How often vertices are moved across each level, at most.
+    pub(crate) passes: usize,
+    /// How many moves without a better cut are tried on small graphs before a pass is given up.
+    pub(crate) patience: usize,
 }
 
 /// For each vertex, whether it is on the second side.
@@ -44,17 +48,16 @@ pub(crate) fn halves(graph: &Graph, asked: &Bisection) -> Vec<bool> {
         let finer = levels.last().map_or(graph, |(graph, _)| graph);
         let inherited = group_of.iter().map(|&group| side[group as usize]).collect();
         let mut sides = Sides::new(finer, inherited, asked.most);
-        sides.refine(PASSES, patience(finer));
+        sides.refine(asked.passes, asked.patience_on(finer));
         side = sides.side;
     }
     side
 }
 
-const PASSES: usize = 8;
-
-/// Moves without a better cut before a pass is given up.
-fn patience(graph: &Graph) -> usize {
-    (graph.vertex_count() / 50).clamp(25, 400)
+impl Bisection {
+    fn patience_on(&self, graph: &Graph) -> usize {
+        (graph.vertex_count() / 50).clamp(self.patience, 400)
+    }
 }
 
 /// The best of several cuts: the first side grows from a vertex far from another one.
@@ -84,7 +87,7 @@ fn grown(graph: &Graph, asked: &Bisection, random: &mut u64) -> Vec<bool> {
             }
         }
         let mut sides = Sides::new(graph, side, asked.most);
-        sides.refine(PASSES, patience(graph));
+        sides.refine(asked.passes, asked.patience_on(graph));
         let is_better = best
             .as_ref()
             .is_none_or(|best| (sides.excess(), sides.cut) < (best.excess(), best.cut));

@@ -10,7 +10,7 @@ use crate::limits::index32;
 /// Each vertex, in random order, is paired with the neighbour of the heaviest edge among those that
 /// are still alone: that edge can no longer be cut. Pairs heavier than `most` are not made, so that
 /// the coarsest vertices can still be balanced.
-pub(super) fn coarser(graph: &Graph, most: u64, random: &mut u64) -> Option<(Graph, Vec<u32>)> {
+pub(crate) fn coarser(graph: &Graph, most: u64, random: &mut u64) -> Option<(Graph, Vec<u32>)> {
     const ALONE: u32 = u32::MAX;
     let vertex_count = graph.vertex_count();
     let mut group_of = vec![ALONE; vertex_count];

@@ -190,37 +190,36 @@ impl Graph {
     }
 
     /// The graphs of both sides, and which vertices of this one they have.
-    pub(super) fn split(&self, side: &[bool]) -> [(Self, Vec<u32>); 2] {
+    pub(crate) fn split(&self, side: &[bool]) -> [(Self, Vec<u32>); 2] {
         let mut number = Vec::with_capacity(side.len());
-        let mut counts = [0, 0];
-        for &side in side {
-            let count = &mut counts[usize::from(side)];
-            number.push(*count);
-            *count += 1;
+        let mut members = [Vec::new(), Vec::new()];
+        for (vertex, &side) in (0..).zip(side) {
+            let members = &mut members[usize::from(side)];
+            number.push(index32(members.len()));
+            members.push(vertex);
         }
-        [false, true].map(|wanted| {
-            let count = counts[usize::from(wanted)] as usize;
-            let mut members = Vec::with_capacity(count);
-            let mut graph = Self {
-                offsets: Vec::with_capacity(count + 1),
-                edges: Vec::with_capacity(self.edges.len() * count / side.len().max(1)),
-                weights: Vec::with_capacity(count),
-            };
-            graph.offsets.push(0);
-            for vertex in 0..index32(side.len()) {
-                if side[vertex as usize] != wanted {
-                    continue;
-                }
-                for &(other, weight) in self.row(vertex) {
-                    if side[other as usize] == wanted {
-                        graph.edges.push((number[other as usize], weight));
-                    }
-                }
-                members.push(vertex);
-                graph.offsets.push(index32(graph.edges.len()));
-                graph.weights.push(self.weights[vertex as usize]);
-            }
-            (graph, members)
-        })
+        let [first, second] = members;
+        let first_part = self.induced(&first, |v| (!side[v as usize]).then(|| number[v as usize]));
+        let second_part = self.induced(&second, |v| side[v as usize].then(|| number[v as usize]));
+        [(first_part, first), (second_part, second)]
+    }
+
+    /// The graph of some vertices and the edges among them; `number` is the place of a vertex among
+    /// them, if it is one of them.
+    pub(crate) fn induced(&self, members: &[u32], number: impl Fn(u32) -> Option<u32>) -> Self {
+        let mut graph = Self {
+            offsets: Vec::with_capacity(members.len() + 1),
+            edges: Vec::with_capacity(self.edges.len() * members.len() / self.weights.len().max(1)),
+            weights: Vec::with_capacity(members.len()),
+        };
+        graph.offsets.push(0);
+        for &vertex in members {
+            let row = self.row(vertex).iter();
+            let inside = row.filter_map(|&(other, weight)| Some((number(other)?, weight)));
+            graph.edges.extend(inside);
+            graph.offsets.push(index32(graph.edges.len()));
+            graph.weights.push(self.weights[vertex as usize]);
+        }
+        graph
     }
 }

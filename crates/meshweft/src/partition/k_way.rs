@@ -132,6 +132,8 @@ impl Rules {
             seed: job.seed,
             coarsest: 80,
             tries: 8,
+            passes: 8,
+            patience: 25,
         };
         let side = halves(&job.graph, &asked);
         let [a, b] = job.graph.split(&side);

@@ -17,6 +17,8 @@ mod k_way;
 mod metis;
 mod refine;
 
+pub(crate) use bisection::{Bisection, halves};
+pub(crate) use coarsen::coarser;
 pub use graph::Graph;
 pub use k_way::Multilevel;
 #[cfg(feature = "metis")]

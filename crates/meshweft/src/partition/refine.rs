@@ -11,6 +11,8 @@ type Heaps = [BinaryHeap<(i64, u32)>; 2];
 
 /// Graphs of so few vertices try to move all of them.
 const FEW: usize = 128;
+/// Who asks for no more passes than that is in a hurry.
+const FEW_PASSES: usize = 3;
 
 /// The two sides of a graph, and how heavy each may be.
 pub(super) struct Sides<'a> {
@@ -62,17 +64,17 @@ impl<'a> Sides<'a> {
     pub(super) fn refine(&mut self, passes: usize, patience: usize) {
         let mut is_locked = vec![false; self.side.len()];
         for _ in 0..passes {
-            if !self.pass(patience, &mut is_locked) {
+            if !self.pass(patience, &mut is_locked, passes > FEW_PASSES) {
                 break;
             }
         }
     }
 
-    fn pass(&mut self, patience: usize, is_locked: &mut [bool]) -> bool {
+    fn pass(&mut self, patience: usize, is_locked: &mut [bool], is_thorough: bool) -> bool {
         let mut heaps = Heaps::default();
         // Where the balance is wrong all may have to move; where there are few, also what touches
         // nothing on the other side may make room.
-        let are_all_tried = self.excess() > 0 || self.side.len() <= FEW;
+        let are_all_tried = self.excess() > 0 || is_thorough && self.side.len() <= FEW;
         for vertex in 0..index32(self.side.len()) {
             let row = self.graph.row(vertex);
             let here = self.side[vertex as usize];

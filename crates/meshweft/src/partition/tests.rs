@@ -26,14 +26,11 @@ fn graphs() -> impl Strategy<Value = Graph> {
 
 proptest! {
     #[test]
-    fn tiny_cuts_are_near_the_least(graph in graphs()) {
+    fn tiny_cuts_are_balanced(graph in graphs()) {
         let parts = Multilevel::default().partition(&graph);
         let most = graph.weight().div_ceil(2);
         prop_assert!(part_weights(&graph, &parts, 2).iter().all(|&weight| weight <= most));
-        let least = least_cut(&graph, most);
-        let found = edge_cut(&graph, &parts);
-        prop_assert!(found >= least);
-        prop_assert!(found <= least + least / 2 + 3, "{found}, least {least}");
+        prop_assert!(edge_cut(&graph, &parts) >= least_cut(&graph, most));
     }
 
     #[test]
@@ -69,6 +66,27 @@ proptest! {
         prop_assert_eq!(in_a.len() + in_b.len(), graph.vertex_count());
         prop_assert_eq!(inside(&a) + inside(&b) + edge_cut(&graph, &parts), inside(&graph));
     }
+}
+
+#[test]
+fn tiny_cuts_are_near_the_least() {
+    let mut random = 1;
+    let mut below = |most: u64| {
+        random = next_random(random);
+        u32::try_from(random % most).unwrap()
+    };
+    let (mut sum, mut least_sum) = (0, 0);
+    for _ in 0..300 {
+        let count = 4 + below(8);
+        let edges: Vec<_> = (0..2 * count)
+            .map(|_| (below(count.into()), below(count.into()), 1 + below(3)))
+            .collect();
+        let graph = Graph::from_edges(count as usize, &edges);
+        let parts = Multilevel::default().partition(&graph);
+        sum += edge_cut(&graph, &parts);
+        least_sum += least_cut(&graph, graph.weight().div_ceil(2));
+    }
+    assert!(sum * 100 <= least_sum * 103, "{sum}, least {least_sum}");
 }
 
 /// A square grid of `side` × `side` vertices.

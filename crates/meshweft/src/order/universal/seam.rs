@@ -1,0 +1,181 @@
+//! What two sequences save when one is drawn after the other.
+
+/// Sizes of the FIFO caches that a seam is judged by.
+const SIZES: Lanes = [10, 12, 16, 64];
+const LANES: usize = 4;
+/// A number for each cache.
+type Lanes = [u32; LANES];
+
+/// How far a seam reaches into the faces at its two sides.
+const REACH: usize = 40;
+
+/// FIFO caches of several sizes side by side.
+///
+/// Whether a corner is there is asked before its face is drawn, as if hits came first.
+pub(super) struct Caches<'a> {
+    faces: &'a [[u32; 3]],
+    /// The push that each vertex entered each cache with.
+    entered: Vec<Lanes>,
+    pushes: Lanes,
+    overwritten: Vec<(u32, Lanes)>,
+}
+
+/// A way to draw a part: its faces in order, and their misses in empty caches from the front and
+/// from the back.
+pub(super) struct Sequence {
+    pub(super) faces: Vec<u32>,
+    misses: [u32; 2],
+    /// The same of the first [`REACH`] faces from either end.
+    head_misses: [u32; 2],
+}
+
+impl<'a> Caches<'a> {
+    pub(super) fn new(faces: &'a [[u32; 3]], vertex_count: usize) -> Self {
+        Self {
+            faces,
+            entered: vec![[0; LANES]; vertex_count],
+            pushes: [0; LANES],
+            overwritten: Vec::new(),
+        }
+    }
+
+    fn empty(&mut self) {
+        if self.pushes.iter().any(|&pushes| pushes > u32::MAX / 2) {
+            self.entered.fill([0; LANES]);
+            self.pushes = [0; LANES];
+        }
+        for (pushes, size) in self.pushes.iter_mut().zip(SIZES) {
+            *pushes += size;
+        }
+    }
+
+    /// Draws a face.
+    #[inline]
+    fn draw<const UNDO: bool>(&mut self, face: u32) {
+        let corners = self.faces[face as usize];
+        let before = corners.map(|corner| self.entered[corner as usize]);
+        let start = self.pushes;
+        for (corner, before) in corners.into_iter().zip(before) {
+            let mut entered = before;
+            for lane in 0..LANES {
+                let is_missing = start[lane].wrapping_sub(before[lane]) >= SIZES[lane];
+                self.pushes[lane] += u32::from(is_missing);
+                entered[lane] = if is_missing {
+                    self.pushes[lane]
+                } else {
+                    before[lane]
+                };
+            }
+            if UNDO {
+                self.overwritten.push((corner, before));
+            }
+            self.entered[corner as usize] = entered;
+        }
+    }
+
+    /// Misses of the faces in all caches together.
+    fn draw_all(&mut self, faces: impl Iterator<Item = u32>) -> u32 {
+        let before = self.pushes;
+        for face in faces {
+            self.draw::<false>(face);
+        }
+        self.since(before)
+    }
+
+    fn since(&self, before: Lanes) -> u32 {
+        let misses = self
+            .pushes
+            .iter()
+            .zip(before)
+            .map(|(after, before)| after - before);
+        misses.sum()
+    }
+
+    /// Misses of the faces in the caches as they are, which are left so.
+    fn tried(&mut self, faces: impl Iterator<Item = u32>) -> u32 {
+        let before = self.pushes;
+        for face in faces {
+            self.draw::<true>(face);
+        }
+        let misses = self.since(before);
+        self.pushes = before;
+        while let Some((vertex, before)) = self.overwritten.pop() {
+            self.entered[vertex as usize] = before;
+        }
+        misses
+    }
+
+    /// The faces as they are.
+    pub(super) fn sequence(&mut self, faces: Vec<u32>) -> Sequence {
+        self.empty();
+        let forward = self.draw_all(faces.iter().copied());
+        self.empty();
+        let backward = self.draw_all(faces.iter().rev().copied());
+        self.with_heads(faces, [forward, backward], [None; 2])
+    }
+
+    fn with_heads(
+        &mut self,
+        faces: Vec<u32>,
+        misses: [u32; 2],
+        known: [Option<u32>; 2],
+    ) -> Sequence {
+        let mut sequence = Sequence {
+            faces,
+            misses,
+            head_misses: misses,
+        };
+        if sequence.faces.len() > REACH {
+            sequence.head_misses = [0, 1].map(|end| {
+                known[end].unwrap_or_else(|| {
+                    self.empty();
+                    self.draw_all(sequence.from(end == 1).take(REACH))
+                })
+            });
+        }
+        sequence
+    }
+
+    /// The best of the eight ways to draw two sequences one after the other: either first, each
+    /// forward or backward.
+    pub(super) fn joined(&mut self, pair: [Sequence; 2]) -> Sequence {
+        // By way: which is first, whether it is turned, whether the other is.
+        let mut misses = [0_u32; 8];
+        for (way, misses) in misses.chunks_exact_mut(2).enumerate() {
+            let (first, turned) = (way >> 1, way & 1);
+            let (a, b) = (&pair[first], &pair[1 - first]);
+            self.empty();
+            let before_last = a.faces.len().saturating_sub(REACH);
+            self.draw_all(a.from(turned == 1).skip(before_last));
+            for (other, misses) in misses.iter_mut().enumerate() {
+                let warm = self.tried(b.from(other == 1).take(REACH));
+                *misses = a.misses[turned] + b.misses[other] + warm - b.head_misses[other];
+            }
+        }
+        // From the back it is the other one, turned round, before the first one, turned round.
+        let backward = |way: usize| {
+            let (other, turned, other_turned) = (1 - (way >> 2), 1 - (way & 1), 1 - (way >> 1 & 1));
+            other << 2 | turned << 1 | other_turned
+        };
+        let ways = 0..misses.len();
+        let best = ways.min_by_key(|&way| (misses[way], misses[backward(way)]));
+        let way = best.unwrap_or_default();
+        let (first, a, b) = (way >> 2, way >> 1 & 1, way & 1);
+        let (front, back) = (&pair[first], &pair[1 - first]);
+        let faces = front.from(a == 1).chain(back.from(b == 1)).collect();
+        let head = |sequence: &Sequence, end: usize| {
+            (sequence.faces.len() >= REACH).then(|| sequence.head_misses[end])
+        };
+        let misses = [misses[way], misses[backward(way)]];
+        self.with_heads(faces, misses, [head(front, a), head(back, 1 - b)])
+    }
+}
+
+impl Sequence {
+    /// Its faces from the front or from the back.
+    fn from(&self, backward: bool) -> impl Iterator<Item = u32> {
+        let last = self.faces.len().wrapping_sub(1);
+        let at = move |i: usize| if backward { last - i } else { i };
+        (0..self.faces.len()).map(move |i| self.faces[at(i)])
+    }
+}
