@@ -36,7 +36,11 @@ fn run() -> Result<(), String> {
     let (mut targets, mut efforts, mut files) = (Vec::new(), Vec::new(), Vec::new());
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
-        let mut value = || arguments.next().ok_or(format!("{argument} asks for a value"));
+        let mut value = || {
+            arguments
+                .next()
+                .ok_or(format!("{argument} asks for a value"))
+        };
         match argument.as_str() {
             "--target" => {
                 let target: Target = value()?.parse().map_err(|e| format!("{e}"))?;
@@ -61,7 +65,8 @@ fn run() -> Result<(), String> {
     }
     if files.is_empty() {
         let data = compare::data_folder();
-        let data = data.ok_or("name mesh files, or set MESHWEFT_DATA to the folder of test data")?;
+        let data =
+            data.ok_or("name mesh files, or set MESHWEFT_DATA to the folder of test data")?;
         files = compare::default_mesh_files(&data);
     }
     let meshes: Vec<(String, Mesh)> = files
@@ -97,12 +102,15 @@ fn table(target: Target, efforts: &[(&str, Effort)], meshes: &[(String, Mesh)]) 
             ..Optimizer::default()
         };
         let mut ratios = Vec::new();
-        let rows = meshes.iter().zip(&meshopt_seconds).map(|((_, mesh), meshopt)| {
-            let order = || optimizer.face_order(mesh).apply(mesh.faces());
-            let (seconds, figures) = timed(target, order);
-            ratios.push(seconds / meshopt);
-            figures
-        });
+        let rows = meshes
+            .iter()
+            .zip(&meshopt_seconds)
+            .map(|((_, mesh), meshopt)| {
+                let order = || optimizer.face_order(mesh).apply(mesh.faces());
+                let (seconds, figures) = timed(target, order);
+                ratios.push(seconds / meshopt);
+                figures
+            });
         let rows: Vec<_> = rows.collect();
         print_row(name, &rows, Some(&ratios));
     }

@@ -52,8 +52,9 @@ pub(super) struct Horizon {
     pub(super) candidates: u32,
     /// Span of the noise on a candidate's cost, in 1024ths of a push.
     pub(super) noise: i64,
-    /// A run that is this much behind the best when it is half done is given up.
+    /// A run that is this much behind the best after `patience` steps or more is given up.
     pub(super) margin: i64,
+    pub(super) patience: usize,
 }
 
 /// The time that a search may take, shared by its parts.
@@ -182,7 +183,7 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
                 self.state.draw::<true>(focus);
                 let mark = self.mark(saved.drawn);
                 spare.marks.push(mark);
-                if number > 0 && step * 2 > horizon.steps {
+                if number > 0 && step > horizon.patience {
                     let other = winner.marks.get(step).or(winner.marks.last());
                     is_behind = other.is_some_and(|other| mark > other + horizon.margin);
                     if is_behind {
