@@ -2,11 +2,12 @@
 //!
 //! Byte 0 and 1: cache size. Byte 2: vertex count less one. Byte 3: bit 0 keeps the corners, bit 1
 //! lets byte 4 choose the first focus, bit 2 makes each of the first 24 faces a fan of 64, so that few
-//! bytes make a hub. Byte 5 to 7: weights in quarters. Then three bytes a face.
+//! bytes make a hub, bits 3 to 5 choose what a search is for. Byte 5 to 7: weights in quarters. Then three bytes a face.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::order::{KCacheReorder, Mode, baselines, vertex_fetch};
+use meshweft::order::universal::{LinearArrangement, RecursiveCut};
+use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target, baselines, vertex_fetch};
 use meshweft::{CacheModel, FaceOrder, Mesh, Permutation, cache};
 
 fuzz_target!(|data: &[u8]| {
@@ -37,9 +38,34 @@ fuzz_target!(|data: &[u8]| {
         check_schedule(&mesh, &algorithm(controllable, Mode::Faithful));
     }
     check(&mesh, &baselines::tipsify(&mesh, size));
+    search(&mesh, size, flags);
+    check(&mesh, &RecursiveCut::default().face_order(&mesh));
+    check(&mesh, &LinearArrangement::default().face_order(&mesh));
     let by_use = vertex_fetch(mesh.faces(), mesh.vertex_count());
     Permutation::new(by_use.new_to_old().to_vec()).expect("each vertex once");
 });
+
+fn search(mesh: &Mesh, size: u32, flags: u8) {
+    let target = match flags >> 3 & 7 {
+        0 => CacheModel::fifo(size).into(),
+        1 => CacheModel::lru(size).into(),
+        2 => CacheModel::controllable(size).into(),
+        3 => CacheModel::NVIDIA.into(),
+        4 => CacheModel::AMD.into(),
+        5 => CacheModel::INTEL.into(),
+        _ => Target::Universal,
+    };
+    for effort in [Effort::Fast, Effort::Best] {
+        let optimizer = Optimizer {
+            target,
+            effort,
+            seed: size.into(),
+            keep_corners: flags & 1 != 0,
+            time_budget: None,
+        };
+        check(mesh, &optimizer.face_order(mesh));
+    }
+}
 
 fn mesh(corners: &[u8], vertex_count: u32, fans: bool) -> Mesh {
     let named = corners.chunks_exact(3);

@@ -36,6 +36,7 @@ pub(crate) enum Verb {
     /// Count cache misses of files as they are
     ///
     ///   meshweft inspect scene.glb --cache fifo:12 --cache nvidia --json
+    ///   meshweft inspect scan.ply --plot curves.svg --methods
     #[command(verbatim_doc_comment)]
     Inspect(Inspect),
     /// Tell whether two files hold the same triangles, and whose order is better
@@ -158,6 +159,12 @@ pub(crate) struct Inspect {
     /// Files, folders with files, or patterns
     #[arg(required = true, value_name = "IN")]
     pub(crate) inputs: Vec<PathBuf>,
+    /// Draw misses per face over the size of a FIFO cache: one curve a file
+    #[arg(long, value_name = "OUT.svg")]
+    pub(crate) plot: Option<PathBuf>,
+    /// Draw beside each file's curve those of its orders by every method here
+    #[arg(long, requires = "plot")]
+    pub(crate) methods: bool,
     #[command(flatten)]
     pub(crate) caches: Caches,
     #[command(flatten)]
@@ -203,11 +210,19 @@ pub(crate) enum WhichPaper {
     ///
     ///   meshweft paper lin-yu --data folder-with-meshes
     #[command(verbatim_doc_comment)]
-    LinYu(LinYu),
+    LinYu(OfPaper),
+    /// Bogomjakov, Gotsman: Universal Rendering Sequences for Transparent Vertex Caching (2002)
+    ///
+    /// Figures 2, 4 and 8 and tables 1 and 2, and the universality table of Lin and Yu's figure 10 with
+    /// every order there is here, on the meshes that are found.
+    ///
+    ///   meshweft paper bogomjakov-gotsman --data folder-with-meshes
+    #[command(verbatim_doc_comment)]
+    BogomjakovGotsman(OfPaper),
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct LinYu {
+pub(crate) struct OfPaper {
     /// A folder with the meshes (fandisk.off, bunny.ply, …, also .gz), or one with a folder `meshes`
     #[arg(long, value_name = "DIR")]
     pub(crate) data: PathBuf,

@@ -1,31 +1,64 @@
 //! `inspect`: counts, without writing anything.
 
+use std::fs;
 use std::path::Path;
 
-use anyhow::{Error, Result};
+use anyhow::{Context, Error, Result};
 use meshweft::files::Document;
-use meshweft::{CacheModel, Limits};
+use meshweft::{CacheModel, Limits, Mesh};
 use serde_json::{Value, json};
 
 use crate::args::Inspect;
 use crate::count::Counts;
 use crate::inputs;
+use crate::methods::METHODS;
+use crate::plot::{self, Curve};
 
 /// Prints the counts of each file.
 pub(crate) fn run(arguments: &Inspect) -> Result<()> {
     let models = arguments.caches.models();
     let mut failed: Option<Error> = None;
+    let mut curves = Vec::new();
     for input in inputs::expand(&arguments.inputs, None)? {
-        if let Err(error) = inspect(&input.path, &models, arguments)
-            && let Some(earlier) = failed.replace(error)
-        {
-            eprintln!("error: {earlier:#}");
+        match inspect(&input.path, &models, arguments) {
+            Ok(more) => curves.extend(more),
+            Err(error) => {
+                if let Some(earlier) = failed.replace(error) {
+                    eprintln!("error: {earlier:#}");
+                }
+            }
         }
+    }
+    if let Some(path) = &arguments.plot {
+        write_plot(path, &curves)?;
     }
     failed.map_or(Ok(()), Err)
 }
 
-fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<()> {
+fn write_plot(path: &Path, curves: &[Curve]) -> Result<()> {
+    let svg = plot::svg("Misses per face over the cache size", curves);
+    fs::write(path, svg).with_context(|| path.display().to_string())
+}
+
+/// A file's curve, and those of its orders by each method if they are asked for.
+fn curves(document: &Document, with_methods: bool) -> Vec<Curve> {
+    let file = document.path().file_name().unwrap_or_default();
+    let file = file.to_string_lossy().into_owned();
+    let meshes = || document.meshes().iter().map(|entry| &entry.mesh);
+    let mut curves = vec![Curve::new(file.clone(), meshes().map(Mesh::faces))];
+    if with_methods {
+        for method in &METHODS {
+            let orders: Vec<_> = meshes()
+                .map(|mesh| (method.order)(mesh).apply(mesh.faces()))
+                .collect();
+            let name = format!("{file}, {}", method.name);
+            curves.push(Curve::new(name, orders.iter().map(Vec::as_slice)));
+        }
+    }
+    curves
+}
+
+fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<Vec<Curve>> {
     let document = Document::open(path, Limits::default())?;
     let entries = document.meshes();
     let counts: Vec<_> = entries
@@ -51,9 +84,13 @@ fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<()
         "notes": crate::output::notes_json(&document),
     }))?;
     arguments.report.text(&text(&document, &counts, &total))?;
-    Ok(arguments
+    arguments
         .report
-        .notes(&crate::output::note_lines(&document))?)
+        .notes(&crate::output::note_lines(&document))?;
+    Ok(match arguments.plot {
+        Some(_) => curves(&document, arguments.methods),
+        None => Vec::new(),
+    })
 }
 
 fn text(document: &Document, counts: &[Counts], total: &Counts) -> String {

@@ -7,9 +7,11 @@ mod count;
 mod demo;
 mod inputs;
 mod inspect;
+mod methods;
 mod optimize;
 mod output;
 mod paper;
+mod plot;
 
 use std::process::ExitCode;
 
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
         Verb::Demo(arguments) => demo::run(arguments),
         Verb::Paper(arguments) => match &arguments.paper {
             WhichPaper::LinYu(arguments) => paper::lin_yu::run(arguments),
+            WhichPaper::BogomjakovGotsman(arguments) => paper::bogomjakov_gotsman::run(arguments),
         },
     };
     match done {

@@ -5,14 +5,14 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use meshweft::files::Document;
 use meshweft::order::baselines::{random, tipsify};
 use meshweft::order::{KCacheReorder, Mode};
-use meshweft::{CacheModel, Limits, Mesh, cache};
+use meshweft::{CacheModel, Mesh, cache};
 use serde_json::{Value, json};
 
 use super::figures::{FIG_3, FIG_6, FIG_6_SIZES, FIG_7, FIG_9, Printed, SIZES};
-use crate::args::LinYu;
+use super::{Figure, cells, head, mean, open};
+use crate::args::OfPaper;
 use crate::inspect::columns;
 
 /// Meshes above this many faces are left out of the figures that take many runs.
@@ -26,7 +26,7 @@ const K3: [f64; 5] = [0.0, 0.65, 1.3, 1.95, 2.6];
 const FIRST_FOCI: usize = 20;
 
 /// Prints the figures for the meshes found in the data folder.
-pub(crate) fn run(arguments: &LinYu) -> Result<()> {
+pub(crate) fn run(arguments: &OfPaper) -> Result<()> {
     let mut found = Vec::new();
     for printed in &FIG_3 {
         if let Some(mesh) = Found::open(printed, &arguments.data)? {
@@ -83,19 +83,8 @@ struct Found {
 
 impl Found {
     fn open(printed: &'static Printed, folder: &Path) -> Result<Option<Self>> {
-        let folders = [folder.to_owned(), folder.join("meshes")];
-        let names = printed.files.iter().flat_map(|name| {
-            let endings = ["off", "ply", "obj", "glb", "gltf"].into_iter();
-            endings.flat_map(move |e| [format!("{name}.{e}"), format!("{name}.{e}.gz")])
-        });
-        let mut paths = names.flat_map(|name| folders.each_ref().map(|f| f.join(&name)));
-        let Some(file) = paths.find(|path| path.is_file()) else {
-            return Ok(None);
-        };
-        let document = Document::open(&file, Limits::default())?;
-        let largest = document.meshes().iter().max_by_key(|e| e.mesh.face_count());
-        let mesh = largest.map(|entry| entry.mesh.clone());
-        Ok(mesh.map(|mesh| Self {
+        let found = open(folder, printed.files)?;
+        Ok(found.map(|(file, mesh)| Self {
             printed,
             file,
             mesh,
@@ -126,13 +115,6 @@ impl Found {
 /// Runs what a figure shows on the meshes found.
 type MakeFigure = fn(&[Found]) -> Figure;
 
-/// One figure as text and as JSON.
-struct Figure {
-    title: String,
-    rows: Vec<Vec<String>>,
-    json: Value,
-}
-
 fn algorithm(cache: CacheModel, mode: Mode) -> KCacheReorder {
     KCacheReorder {
         cache,
@@ -153,24 +135,6 @@ fn control(mesh: &Mesh, size: u32, mode: Mode) -> [f64; 2] {
     let (order, schedule) = algorithm(model, mode).schedule(mesh);
     let scheduled = crate::count::ratio(schedule.pushes() as f64, mesh.face_count());
     [scheduled, cache::acmr(&order.apply(mesh.faces()), model)]
-}
-
-fn cells(name: impl Into<String>, numbers: impl IntoIterator<Item = f64>) -> Vec<String> {
-    let numbers = numbers.into_iter().map(|x| format!("{x:.3}"));
-    [name.into()].into_iter().chain(numbers).collect()
-}
-
-fn head(names: &[&str]) -> Vec<String> {
-    names.iter().map(|&name| name.to_owned()).collect()
-}
-
-fn mean(numbers: impl IntoIterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0);
-    for x in numbers {
-        sum += x;
-        count += 1;
-    }
-    crate::count::ratio(sum, count)
 }
 
 fn fig_3(found: &[Found]) -> Figure {

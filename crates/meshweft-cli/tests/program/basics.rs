@@ -315,6 +315,43 @@ fn every_target_and_effort_keeps_the_triangles_and_settles() {
 }
 
 #[test]
+fn inspect_plots_a_curve_for_each_file_and_method() {
+    let folder = Folder::new("plot");
+    folder.write("a.obj", grid_obj());
+    folder.write("b.obj", grid_obj());
+    let flags = ["inspect", "a.obj", "b.obj", "--plot", "two.svg", "--quiet"];
+    assert_eq!(folder.run(&flags).code(), 0);
+    let svg = String::from_utf8(folder.read("two.svg")).unwrap();
+    assert_eq!(svg.matches("<polyline").count(), 2);
+    assert!(svg.contains(">a.obj<") && svg.contains(">b.obj<"));
+    let flags = ["inspect", "a.obj", "--plot", "all.svg", "--methods"];
+    assert_eq!(folder.run(&flags).code(), 0);
+    let svg = String::from_utf8(folder.read("all.svg")).unwrap();
+    assert!(svg.matches("<polyline").count() > 8);
+    assert!(svg.contains("a.obj, recursive cut"));
+    assert_eq!(folder.run(&["inspect", "a.obj", "--methods"]).code(), 2);
+    let flags = ["inspect", "a.obj", "--plot", "no/such/folder.svg"];
+    let failed = folder.run(&flags);
+    assert!(
+        failed.err().contains("no/such/folder.svg"),
+        "{}",
+        failed.err()
+    );
+    assert_eq!(failed.code(), 1);
+}
+
+#[test]
+fn papers_without_their_meshes_say_what_they_look_for() {
+    let folder = Folder::new("papers");
+    folder.write("other.obj", grid_obj());
+    for paper in ["lin-yu", "bogomjakov-gotsman"] {
+        let failed = folder.run(&["paper", paper, "--data", "."]);
+        assert_eq!(failed.code(), 1);
+        assert!(failed.err().contains("bunny.ply"), "{}", failed.err());
+    }
+}
+
+#[test]
 fn exit_codes_tell_files_from_usage() {
     let folder = Folder::new("exit");
     folder.write("grid.obj", grid_obj());

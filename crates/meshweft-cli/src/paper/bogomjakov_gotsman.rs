@@ -1,0 +1,330 @@
+//! Figures 2, 4 and 8 and tables 1 and 2 of Bogomjakov and Gotsman 2002, beside ours, and the
+//! universality table of Lin and Yu's figure 10 with every order there is here.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+use meshweft::order::Grid;
+use meshweft::order::Target;
+use meshweft::order::baselines::random;
+use meshweft::order::universal::{LinearArrangement, RecursiveCut, linear_arrangement_cost};
+use meshweft::{CacheModel, Mesh, cache};
+use serde_json::{Value, json};
+
+use super::{Figure, cells, head, mean, open};
+use crate::args::OfPaper;
+use crate::inspect::columns;
+use crate::methods::METHODS;
+
+/// Meshes above this many faces are left out of the universality table.
+const LARGE: usize = 200_000;
+/// Cache sizes of figures 4 and 8, which the paper drew as curves from 2 to 64.
+const SIZES: [u32; 9] = [4, 6, 8, 10, 12, 16, 24, 32, 64];
+
+/// A row of tables 1 and 2.
+struct Printed {
+    mesh: &'static str,
+    /// Used vertices and faces.
+    size: [usize; 2],
+    /// Table 1: seconds for the recursive cut, on a Pentium III of 550 MHz.
+    seconds: f64,
+    /// Table 2: misses per face at a cache of 10 as in the file, by recursive cut and as triangle
+    /// strips.
+    acmr: Option<[f64; 3]>,
+    files: &'static [&'static str],
+}
+
+/// Regular32 is made here.
+#[rustfmt::skip]
+const MESHES: [Printed; 6] = [
+    Printed { mesh: "Bunny (simplified)", size: [1092, 2084], seconds: 0.6, acmr: Some([2.76, 0.81, 1.06]), files: &["bunny_simplified"] },
+    Printed { mesh: "Flipper", size: [6179, 12337], seconds: 5.4, acmr: Some([1.84, 0.83, 1.10]), files: &["flipper"] },
+    Printed { mesh: "Face", size: [12530, 24118], seconds: 9.5, acmr: Some([1.34, 0.83, 1.10]), files: &["face"] },
+    Printed { mesh: "Horse", size: [19851, 39698], seconds: 18.0, acmr: Some([2.83, 0.81, 1.09]), files: &["horse_20k", "horse"] },
+    Printed { mesh: "Buddha", size: [32316, 67240], seconds: 27.0, acmr: Some([1.00, 0.81, 1.08]), files: &["buddha_res3"] },
+    Printed { mesh: "Bunny", size: [34834, 69451], seconds: 32.0, acmr: Some([1.00, 0.83, 1.08]), files: &["bunny"] },
+];
+const REGULAR_32: ([usize; 2], f64) = ([561, 1024], 0.3);
+
+/// Names of the meshes of the universality table: those of Lin and Yu.
+const UNIVERSALITY: [&str; 8] = [
+    "eight", "cow", "fandisk", "feline", "foot", "skull", "bunny", "horse",
+];
+
+struct Found {
+    printed: &'static Printed,
+    file: PathBuf,
+    mesh: Mesh,
+}
+
+impl Found {
+    /// The paper's name of the mesh, starred if the file is another version of it.
+    fn name(&self) -> String {
+        let used = cache::report(self.mesh.faces(), CacheModel::fifo(10)).used_vertices;
+        let is_the_papers = self.printed.size == [used, self.mesh.face_count()];
+        format!(
+            "{}{}",
+            self.printed.mesh,
+            if is_the_papers { "" } else { "*" }
+        )
+    }
+}
+
+/// Prints the figures for the meshes found in the data folder.
+pub(crate) fn run(arguments: &OfPaper) -> Result<()> {
+    let mut found = Vec::new();
+    for printed in &MESHES {
+        if let Some((file, mesh)) = open(&arguments.data, printed.files)? {
+            found.push(Found {
+                printed,
+                file,
+                mesh,
+            });
+        }
+    }
+    let mut others = Vec::new();
+    for name in UNIVERSALITY {
+        others.extend(open(&arguments.data, &[name])?.map(|(_, mesh)| mesh));
+    }
+    others.retain(|mesh| mesh.face_count() <= LARGE);
+    if arguments.skip_large {
+        found.retain(|it| it.mesh.face_count() <= LARGE);
+    }
+    if found.is_empty() || others.is_empty() {
+        bail!(
+            "{}: none of the paper's meshes is here. Files are looked for by name, such as \
+             bunny.ply, horse.obj or fandisk.off, also with .gz, and in a folder `meshes`",
+            arguments.data.display()
+        );
+    }
+    let progress = ProgressBar::new(5).with_style(ProgressStyle::with_template(
+        "[{elapsed}] {msg} {wide_bar} {pos}/{len}",
+    )?);
+    progress.enable_steady_tick(Duration::from_millis(500));
+    let figures: [(&str, &str, &dyn Fn() -> Figure); 5] = [
+        ("Fig. 4a", "figure_4a", &fig_4),
+        ("Fig. 8", "figure_8", &|| fig_8(&found)),
+        ("Table 1", "table_1", &|| table_1(&found)),
+        ("Table 2", "table_2", &|| table_2(&found)),
+        ("Universality", "universality", &|| universality(&others)),
+    ];
+    let mut json = serde_json::Map::new();
+    json.insert("schema".into(), json!(1));
+    json.insert("paper".into(), json!("doi:10.1111/1467-8659.00573"));
+    for (name, key, figure) in figures {
+        progress.set_message(name);
+        let figure = figure();
+        progress.suspend(|| {
+            let rows = columns(&figure.rows);
+            arguments
+                .report
+                .text(&format!("{name}. {}\n{rows}\n", figure.title))
+        })?;
+        json.insert(key.into(), figure.json);
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    Ok(arguments.report.json(&Value::Object(json))?)
+}
+
+fn fifo(faces: &[[u32; 3]], size: u32) -> f64 {
+    cache::acmr(faces, CacheModel::fifo(size))
+}
+
+fn sizes_head(name: &str) -> Vec<String> {
+    let sizes = SIZES.iter().map(|size| format!("K={size}"));
+    [name.to_owned()].into_iter().chain(sizes).collect()
+}
+
+fn recursive_cut(mesh: &Mesh) -> Vec<[u32; 3]> {
+    RecursiveCut::default().face_order(mesh).apply(mesh.faces())
+}
+
+fn linear_arrangement(mesh: &Mesh) -> Vec<[u32; 3]> {
+    LinearArrangement::default()
+        .face_order(mesh)
+        .apply(mesh.faces())
+}
+
+fn grid_mesh(grid: Grid) -> Mesh {
+    let vertices = (grid.columns as usize + 1) * (grid.rows as usize + 1);
+    Mesh::connectivity_only(vertices, grid.faces()).expect("a grid names its vertices")
+}
+
+/// The regular mesh of figure 2 under the sequences of figure 4.
+fn fig_4() -> Figure {
+    let grid = Grid {
+        columns: 16,
+        rows: 8,
+    };
+    let mesh = grid_mesh(grid);
+    let faces = mesh.faces();
+    let sequences = [
+        ("random", random(faces.len(), 1).apply(faces)),
+        ("snake (Fig. 2a)", grid.snake().apply(faces)),
+        ("Hilbert (2b)", grid.hilbert().apply(faces)),
+        ("recursive cut (2c)", recursive_cut(&mesh)),
+        ("linear arrangement (2d)", linear_arrangement(&mesh)),
+        ("primed rows, K=10", grid.primed_rows(10).apply(faces)),
+    ];
+    let methods = METHODS[3..]
+        .iter()
+        .filter(|method| method.name.contains("fast"));
+    let methods = methods.map(|method| (method.name, (method.order)(&mesh).apply(faces)));
+    let mut rows = vec![sizes_head("")];
+    rows[0].push("cost".to_owned());
+    let mut json = Vec::new();
+    for (name, faces) in sequences.into_iter().chain(methods) {
+        let acmr = SIZES.map(|size| fifo(&faces, size));
+        let cost = linear_arrangement_cost(&faces);
+        let mut row = cells(name, acmr);
+        row.push(cost.to_string());
+        rows.push(row);
+        json.push(json!({"sequence": name, "acmr": acmr, "linear_arrangement_cost": cost}));
+    }
+    Figure {
+        title: "The regular grid of 16 by 8 squares of Fig. 2: misses per face over the cache size,\n\
+                and the cost of the linear arrangement. The paper drew curves and printed no numbers."
+            .to_owned(),
+        rows,
+        json: json!({"sizes": SIZES, "sequences": json}),
+    }
+}
+
+fn fig_8(found: &[Found]) -> Figure {
+    let mut rows = vec![sizes_head("")];
+    let mut json = Vec::new();
+    for it in found {
+        for (name, order) in [
+            ("recursive cut", recursive_cut as fn(&Mesh) -> _),
+            ("linear arrangement", linear_arrangement),
+        ] {
+            let faces = order(&it.mesh);
+            let acmr = SIZES.map(|size| fifo(&faces, size));
+            rows.push(cells(format!("{}, {name}", it.name()), acmr));
+            json.push(json!({"mesh": it.printed.mesh, "sequence": name, "acmr": acmr}));
+        }
+    }
+    Figure {
+        title:
+            "Misses per face over the cache size. The paper drew curves that nearly coincide for \
+                all meshes.\n* the file is another version of the mesh than the paper's."
+                .to_owned(),
+        rows,
+        json: json!({"sizes": SIZES, "rows": json}),
+    }
+}
+
+fn table_1(found: &[Found]) -> Figure {
+    let mut rows = vec![head(&["", "vertices", "faces", "paper, s", "ours, s"])];
+    let mut json = Vec::new();
+    let mut push = |name: String, vertices: usize, mesh: &Mesh, paper: f64| {
+        let start = Instant::now();
+        std::hint::black_box(RecursiveCut::default().face_order(mesh));
+        let ours = start.elapsed().as_secs_f64();
+        rows.push(vec![
+            name.clone(),
+            vertices.to_string(),
+            mesh.face_count().to_string(),
+            format!("{paper:.1}"),
+            format!("{ours:.4}"),
+        ]);
+        json.push(json!({"mesh": name, "paper": paper, "ours": ours}));
+    };
+    let ([vertices, _], seconds) = REGULAR_32;
+    let regular = grid_mesh(Grid {
+        columns: 32,
+        rows: 16,
+    });
+    push("Regular32".to_owned(), vertices, &regular, seconds);
+    for it in found {
+        push(it.name(), it.printed.size[0], &it.mesh, it.printed.seconds);
+    }
+    Figure {
+        title: "Seconds for the recursive cut: the paper's (Pentium III, 550 MHz), ours."
+            .to_owned(),
+        rows,
+        json: Value::Array(json),
+    }
+}
+
+fn table_2(found: &[Found]) -> Figure {
+    let mut rows = vec![head(&[
+        "",
+        "original",
+        "ours",
+        "rec. cut",
+        "ours",
+        "strips",
+        "universal, fast",
+        "universal, best",
+    ])];
+    let mut json = Vec::new();
+    for it in found {
+        let Some([original, cut, strips]) = it.printed.acmr else {
+            continue;
+        };
+        let in_file = fifo(it.mesh.faces(), 10);
+        let our_cut = fifo(&recursive_cut(&it.mesh), 10);
+        let universal = METHODS[METHODS.len() - 2..].iter();
+        let universal: Vec<f64> = universal
+            .map(|method| fifo(&(method.order)(&it.mesh).apply(it.mesh.faces()), 10))
+            .collect();
+        let numbers = [original, in_file, cut, our_cut, strips];
+        rows.push(cells(
+            it.name(),
+            numbers.into_iter().chain(universal.clone()),
+        ));
+        json.push(json!({
+            "mesh": it.printed.mesh,
+            "file": it.file.file_name().map(|name| name.to_string_lossy()),
+            "paper": {"original": original, "recursive_cut": cut, "strips": strips},
+            "ours": {"original": in_file, "recursive_cut": our_cut,
+                     "universal_fast": universal[0], "universal_best": universal[1]},
+        }));
+    }
+    Figure {
+        title:
+            "Misses per face at a cache of 10: the paper's columns, ours to the right of them.\n\
+                The frame rates beside them are those of a GeForce 2 and are not repeated."
+                .to_owned(),
+        rows,
+        json: Value::Array(json),
+    }
+}
+
+fn universality(meshes: &[Mesh]) -> Figure {
+    let mut rows = vec![head(&[
+        "", "K=10", "12", "16", "24", "32", "64", "mean", "NVIDIA", "AMD", "Intel",
+    ])];
+    let mut json = Vec::new();
+    for method in &METHODS {
+        let mut figures = [0.0; Target::UNIVERSAL.len()];
+        for mesh in meshes {
+            let faces = (method.order)(mesh).apply(mesh.faces());
+            for (sum, model) in figures.iter_mut().zip(Target::UNIVERSAL) {
+                let figure = match model {
+                    CacheModel::Batch(_) => cache::atvr(&faces, model),
+                    _ => cache::acmr(&faces, model),
+                };
+                *sum += figure / meshes.len() as f64;
+            }
+        }
+        let (acmr, atvr) = figures.split_at(6);
+        let numbers = acmr.iter().copied().chain([mean(acmr.iter().copied())]);
+        rows.push(cells(method.name, numbers.chain(atvr.iter().copied())));
+        json.push(json!({"method": method.name, "acmr": acmr, "atvr": atvr}));
+    }
+    let models = Target::UNIVERSAL.map(|model| model.to_string());
+    Figure {
+        title: format!(
+            "Every order in every cache (Lin and Yu's Fig. 10): misses per face of FIFO caches and \
+             their\nmean, misses per vertex of GPUs; means over {} meshes.",
+            meshes.len()
+        ),
+        rows,
+        json: json!({"models": models, "meshes": meshes.len(), "methods": json}),
+    }
+}
