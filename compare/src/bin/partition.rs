@@ -29,6 +29,7 @@ const MESHES: [&str; 10] = [
 ];
 
 fn main() -> ExitCode {
+    compare::one_thread();
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -18,6 +18,7 @@ use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target, baselines}
 use meshweft::{CacheModel, FaceOrder, Mesh, cache};
 
 fn main() -> ExitCode {
+    compare::one_thread();
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -46,23 +47,36 @@ fn run() -> Result<(), String> {
         "| mesh | order | K=10 | 12 | 16 | 24 | 32 | 64 | NVIDIA | AMD | Intel | Mfaces/s | time |"
     );
     println!("|---|---|{}", "--:|".repeat(Target::UNIVERSAL.len() + 2));
-    for file in files {
-        let mesh = compare::oracle::read(&file).map_err(|error| error.to_string())?;
-        let name = compare::mesh_name(&file);
+    let orders = orders();
+    let mut sums = vec![[0.0; Target::UNIVERSAL.len() + 1]; orders.len()];
+    for file in &files {
+        let mesh = compare::oracle::read(file).map_err(|error| error.to_string())?;
+        let name = compare::mesh_name(file);
         let (meshopt, _) = timed(&|mesh| Meshopt::VertexCache.ordered(mesh), &mesh);
-        for (order, make) in orders() {
+        for ((order, make), sums) in orders.iter().zip(&mut sums) {
             if !only.is_empty() && !only.iter().any(|text| order.contains(text)) {
                 continue;
             }
-            let (seconds, faces) = timed(&make, &mesh);
+            let (seconds, faces) = timed(make, &mesh);
             let figures = Target::UNIVERSAL.map(|model| match model {
                 CacheModel::Batch(_) => cache::atvr(&faces, model),
                 _ => cache::acmr(&faces, model),
             });
-            let cells = figures.map(|f| format!("{f:.3}")).join(" | ");
-            let speed = mesh.face_count() as f64 / seconds / 1e6;
             let time = seconds / meshopt;
-            println!("| {name} | {order} | {cells} | {speed:.2} | {time:.2}x |");
+            for (sum, figure) in sums.iter_mut().zip(figures.into_iter().chain([time])) {
+                *sum += figure / files.len() as f64;
+            }
+            let speed = mesh.face_count() as f64 / seconds / 1e6;
+            println!(
+                "| {name} | {order} | {} | {speed:.2} | {time:.2}x |",
+                cells(&figures)
+            );
+        }
+    }
+    for ((order, _), means) in orders.iter().zip(&sums) {
+        let [figures @ .., time] = means;
+        if *time > 0.0 {
+            println!("| **mean** | {order} | {} | | {time:.2}x |", cells(figures));
         }
     }
     println!();
@@ -70,6 +84,11 @@ fn run() -> Result<(), String> {
     println!("(ATVR) of the batch models that meshoptimizer's analyzer is run with. Time on one");
     println!("thread, in that of `meshopt_optimizeVertexCache` on the same mesh.");
     Ok(())
+}
+
+fn cells(figures: &[f64]) -> String {
+    let cells: Vec<String> = figures.iter().map(|f| format!("{f:.3}")).collect();
+    cells.join(" | ")
 }
 
 /// The median of three runs in seconds (of one, if it takes long), and the faces in order.

@@ -23,6 +23,7 @@ const EFFORTS: [(&str, Effort); 3] = [
 ];
 
 fn main() -> ExitCode {
+    compare::one_thread();
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -249,7 +249,7 @@ fn growth() {
     let mut rows = Vec::new();
     for arrangement in ["in blocks", "shuffled"] {
         for side in [707, 2236] {
-            let mut mesh = irregular_grid(side);
+            let mut mesh = compare::irregular_grid(side);
             if arrangement == "shuffled" {
                 mesh = shuffled(&mesh);
             }
@@ -270,38 +270,7 @@ fn growth() {
             ratio(2),
         );
     }
-    let mesh = irregular_grid(2236);
+    let mesh = compare::irregular_grid(2236);
     let scratch = scratch_bytes_per_face(&fast(12), &mesh);
     println!("Scratch at 10 million faces: {scratch:.2} bytes per face.");
-}
-
-/// `side` × `side` quads, each cut along a random diagonal, as a scanner might deliver them: blocks
-/// of 32 × 32 quads row by row, the faces inside a block shuffled, the vertices by first use.
-fn irregular_grid(side: u32) -> Mesh {
-    const BLOCK: u32 = 32;
-    let quad_count = side as usize * side as usize;
-    // The parity of a random number: a random bit a quad.
-    let random = baselines::random(quad_count, 3);
-    let mut faces = Vec::with_capacity(2 * quad_count);
-    let blocks = side.div_ceil(BLOCK);
-    for block in 0..blocks * blocks {
-        let (left, top) = (block % blocks * BLOCK, block / blocks * BLOCK);
-        let mut in_block = Vec::new();
-        for y in top..(top + BLOCK).min(side) {
-            for x in left..(left + BLOCK).min(side) {
-                let at = y * (side + 1) + x;
-                let [a, b, c, d] = [at, at + 1, at + side + 1, at + side + 2];
-                let flipped = random.new_to_old()[(y * side + x) as usize].is_multiple_of(2);
-                in_block.extend(match flipped {
-                    true => [[a, b, d], [a, d, c]],
-                    false => [[a, b, c], [c, b, d]],
-                });
-            }
-        }
-        let order = baselines::random(in_block.len(), u64::from(block));
-        faces.extend(order.apply(&in_block));
-    }
-    let vertex_count = (side as usize + 1) * (side as usize + 1);
-    let by_use = meshweft::order::vertex_fetch(&faces, vertex_count);
-    Mesh::connectivity_only(vertex_count, by_use.renumber(&faces)).expect("a grid is in range")
 }

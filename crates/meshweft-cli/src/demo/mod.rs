@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use meshweft::order::baselines::{random, tipsify};
-use meshweft::order::{KCacheReorder, Mode, vertex_fetch};
+use meshweft::order::{KCacheReorder, Mode, Optimizer, vertex_fetch};
 use meshweft::{CacheModel, FaceOrder, Mesh, cache};
 use serde_json::{Value, json};
 
@@ -24,7 +24,7 @@ const GPUS: [CacheModel; 3] = [CacheModel::NVIDIA, CacheModel::AMD, CacheModel::
 /// A name and a way to order a mesh for a FIFO cache of a size.
 type Method = (&'static str, fn(&Mesh, u32) -> FaceOrder);
 
-const METHODS: [Method; 5] = [
+const METHODS: [Method; 6] = [
     ("as it comes", |mesh, _| {
         FaceOrder::identity(mesh.face_count())
     }),
@@ -36,6 +36,7 @@ const METHODS: [Method; 5] = [
     ("K-Cache-Reorder, fast", |mesh, size| {
         k_cache_reorder(mesh, size, Mode::Fast)
     }),
+    ("universal", |mesh, _| Optimizer::default().face_order(mesh)),
 ];
 
 fn k_cache_reorder(mesh: &Mesh, size: u32, mode: Mode) -> FaceOrder {

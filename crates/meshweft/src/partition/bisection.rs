@@ -63,15 +63,21 @@ impl Bisection {
 /// The best of several cuts: the first side grows from a vertex far from another one.
 fn grown(graph: &Graph, asked: &Bisection, random: &mut u64) -> Vec<bool> {
     let mut best: Option<Sides<'_>> = None;
-    for _ in 0..asked.tries.max(1) {
-        *random = next_random(*random);
-        let vertex_count = graph.vertex_count();
-        let start = match vertex_count {
-            0 => 0,
-            count => index32(usize::try_from(*random % count as u64).unwrap_or(0)),
+    let vertex_count = graph.vertex_count();
+    let mut far = 0;
+    for attempt in 0..asked.tries.max(1) {
+        let start = match attempt % 2 {
+            0 => {
+                *random = next_random(*random);
+                let count = (vertex_count as u64).max(1);
+                let start = index32(usize::try_from(*random % count).unwrap_or(0));
+                by_distance(graph, start).last().copied().unwrap_or(0)
+            }
+            // From the other end.
+            _ => far,
         };
-        let end = by_distance(graph, start).last().copied();
-        let order = by_distance(graph, end.unwrap_or(0));
+        let order = by_distance(graph, start);
+        far = order.last().copied().unwrap_or(0);
         let mut side = vec![true; vertex_count];
         let mut weight = 0;
         for vertex in order {

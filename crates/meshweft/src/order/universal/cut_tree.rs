@@ -39,7 +39,7 @@ const ALONE: u64 = 1 << 14;
 /// Most faces in a cluster. Large parts are cut along clusters: face by face takes longer.
 const CLUSTER: u32 = 16;
 /// Parts of so many faces are cut face by face.
-const PART: u64 = 256;
+const PART: u64 = 128;
 
 impl CutTree {
     /// Cuts a mesh's dual graph.
