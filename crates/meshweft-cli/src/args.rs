@@ -286,7 +286,7 @@ pub(crate) enum Mode {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Effort {
-    /// A few times meshoptimizer's time at most
+    /// About three times meshoptimizer's time, for one cache less than that
     Fast,
     /// About ten times meshoptimizer's time
     Best,

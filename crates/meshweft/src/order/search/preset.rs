@@ -107,7 +107,7 @@ fn fifo(size: u32, effort: Effort) -> Preset {
                     ..horizon(effort, steps, 9)
                 },
                 (Effort::Best, false) => Horizon {
-                    runs: 12,
+                    runs: 10,
                     margin: fixed(1.5),
                     ..horizon(effort, steps, 8)
                 },
@@ -249,7 +249,7 @@ fn universal(effort: Effort) -> Preset {
             Horizon {
                 runs: if effort == Effort::Best { 10 } else { 64 },
                 steps: 36,
-                commit: if effort == Effort::Best { 12 } else { 9 },
+                commit: 12,
                 candidates: 12,
                 noise: fixed(1.3579),
                 margin: fixed(0.377),
