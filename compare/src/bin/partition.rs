@@ -30,13 +30,7 @@ const MESHES: [&str; 10] = [
 
 fn main() -> ExitCode {
     compare::one_thread();
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(2)
-        }
-    }
+    compare::exit_code(run())
 }
 
 fn run() -> Result<(), String> {

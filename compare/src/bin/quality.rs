@@ -19,13 +19,7 @@ use meshweft::{CacheModel, FaceOrder, Mesh, cache};
 
 fn main() -> ExitCode {
     compare::one_thread();
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(2)
-        }
-    }
+    compare::exit_code(run())
 }
 
 fn run() -> Result<(), String> {

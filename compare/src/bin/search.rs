@@ -24,13 +24,7 @@ const EFFORTS: [(&str, Effort); 3] = [
 
 fn main() -> ExitCode {
     compare::one_thread();
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(2)
-        }
-    }
+    compare::exit_code(run())
 }
 
 fn run() -> Result<(), String> {

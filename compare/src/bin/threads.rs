@@ -18,13 +18,7 @@ use meshweft::{FaceOrder, Mesh, cache};
 static ALLOCATOR: Counting = Counting;
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(2)
-        }
-    }
+    compare::exit_code(run())
 }
 
 fn run() -> Result<(), String> {

@@ -38,6 +38,7 @@ pub mod order;
 mod parallel;
 pub mod partition;
 mod permutation;
+mod random;
 
 pub use cache::CacheModel;
 pub use error::MeshError;

@@ -6,7 +6,7 @@ const LONGEST_FILE: usize = 800;
 
 /// What each module may name of the crate; `mesh, permutation ← adjacency ← cache ← order → partition`, and
 /// `files → mesh, permutation` only. The names at the root are their modules' types.
-const ALLOWED: [(&str, &[&str]); 10] = [
+const ALLOWED: [(&str, &[&str]); 11] = [
     ("error", &[]),
     ("limits", &[]),
     ("permutation", &["error", "limits"]),
@@ -17,7 +17,8 @@ const ALLOWED: [(&str, &[&str]); 10] = [
         &["error", "limits", "permutation", "mesh", "adjacency"],
     ),
     ("parallel", &[]),
-    ("partition", &["error", "limits", "parallel"]),
+    ("random", &["limits"]),
+    ("partition", &["error", "limits", "parallel", "random"]),
     (
         "order",
         &[
@@ -29,6 +30,7 @@ const ALLOWED: [(&str, &[&str]); 10] = [
             "cache",
             "parallel",
             "partition",
+            "random",
         ],
     ),
     ("files", BASE),

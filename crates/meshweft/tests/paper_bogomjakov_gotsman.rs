@@ -1,31 +1,12 @@
 //! What Bogomjakov and Gotsman 2002 print, on the paper's own meshes where they are at hand.
 #![cfg(feature = "files")]
 
-use std::path::{Path, PathBuf};
+mod data;
 
-use meshweft::files::Document;
+use data::{meshes, open};
 use meshweft::order::universal::{LinearArrangement, RecursiveCut, linear_arrangement_cost};
 use meshweft::order::{Grid, baselines};
-use meshweft::{CacheModel, Limits, Mesh, cache};
-
-/// The folder of real meshes, or `None` with a loud word.
-fn meshes() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("MESHWEFT_DATA").map_or(beside, PathBuf::from);
-    let folder = folder.join("meshes");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let required = std::env::var_os("MESHWEFT_REQUIRE_DATA").is_some();
-    assert!(!required, "no meshes in {}", folder.display());
-    eprintln!("SKIPPED: no meshes in {}", folder.display());
-    None
-}
-
-fn open(folder: &Path, name: &str) -> Mesh {
-    let document = Document::open(&folder.join(name), Limits::default()).unwrap();
-    document.meshes()[0].mesh.clone()
-}
+use meshweft::{CacheModel, Mesh, cache};
 
 fn recursive_cut(mesh: &Mesh) -> Vec<[u32; 3]> {
     RecursiveCut::default().face_order(mesh).apply(mesh.faces())

@@ -1,31 +1,11 @@
 //! The tables of Lin and Yu 2006, on the paper's own meshes where they are at hand.
 #![cfg(feature = "files")]
 
-use std::path::{Path, PathBuf};
+mod data;
 
-use meshweft::files::Document;
+use data::{meshes, open};
 use meshweft::order::{KCacheReorder, Mode};
-use meshweft::{CacheModel, Limits, Mesh, cache};
-
-/// The folder of real meshes, or `None` with a loud word.
-fn meshes() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("MESHWEFT_DATA").map_or(beside, PathBuf::from);
-    let folder = folder.join("meshes");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let required = std::env::var_os("MESHWEFT_REQUIRE_DATA").is_some();
-    assert!(!required, "no meshes in {}", folder.display());
-    eprintln!("SKIPPED: no meshes in {}", folder.display());
-    None
-}
-
-fn open(folder: &Path, name: &str) -> Mesh {
-    let path = folder.join(name);
-    let document = Document::open(&path, Limits::default()).unwrap();
-    document.meshes()[0].mesh.clone()
-}
+use meshweft::{CacheModel, Mesh, cache};
 
 fn ordered(mesh: &Mesh, cache: CacheModel, mode: Mode) -> Vec<[u32; 3]> {
     let algorithm = KCacheReorder {

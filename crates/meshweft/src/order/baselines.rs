@@ -4,6 +4,7 @@ use crate::adjacency::Adjacency;
 use crate::limits::index32;
 use crate::mesh::Mesh;
 use crate::permutation::{FaceOrder, Permutation};
+use crate::random::shuffled;
 
 /// `len` numbers in a random order, the same for the same seed on every platform.
 ///
@@ -16,21 +17,7 @@ use crate::permutation::{FaceOrder, Permutation};
 /// Time and space O(len).
 #[must_use]
 pub fn random(len: usize, seed: u64) -> Permutation {
-    let mut state = seed;
-    let mut draw = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    };
-    let mut new_to_old: Vec<u32> = Permutation::identity(len).new_to_old().to_vec();
-    for last in (1..len).rev() {
-        // The high half of a 64 × 32 bit product: uniform but for one part in 2^32.
-        let other = (u128::from(draw()) * (last as u128 + 1)) >> 64;
-        new_to_old.swap(last, usize::try_from(other).unwrap_or(0));
-    }
-    Permutation::from_algorithm(new_to_old)
+    Permutation::from_algorithm(shuffled(len, seed))
 }
 
 /// A rendering sequence by Tipsify, for a FIFO cache of `cache_size` vertices.

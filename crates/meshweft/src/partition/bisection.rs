@@ -2,9 +2,9 @@
 
 use super::coarsen::coarser;
 use super::graph::Graph;
-use super::next_random;
 use super::refine::Sides;
 use crate::limits::index32;
+use crate::random::SplitMix64;
 
 /// What is asked of a cut.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +28,7 @@ pub(crate) struct Bisection {
 ///
 /// Time O(vertices + edges), times the logarithm of the boundary.
 pub(crate) fn halves(graph: &Graph, asked: &Bisection) -> Vec<bool> {
-    let mut random = asked.seed;
+    let mut random = SplitMix64(asked.seed);
     let mut levels: Vec<(Graph, Vec<u32>)> = Vec::new();
     // No vertex heavier than a fifth of what balance needs at the coarsest level.
     let heaviest = (graph.weight() / (asked.coarsest as u64).max(1)).max(1) * 3 / 2;
@@ -61,16 +61,14 @@ impl Bisection {
 }
 
 /// The best of several cuts: the first side grows from a vertex far from another one.
-fn grown(graph: &Graph, asked: &Bisection, random: &mut u64) -> Vec<bool> {
+fn grown(graph: &Graph, asked: &Bisection, random: &mut SplitMix64) -> Vec<bool> {
     let mut best: Option<Sides<'_>> = None;
     let vertex_count = graph.vertex_count();
     let mut far = 0;
     for attempt in 0..asked.tries.max(1) {
         let start = match attempt % 2 {
             0 => {
-                *random = next_random(*random);
-                let count = (vertex_count as u64).max(1);
-                let start = index32(usize::try_from(*random % count).unwrap_or(0));
+                let start = index32(random.below(vertex_count));
                 by_distance(graph, start).last().copied().unwrap_or(0)
             }
             // From the other end.

@@ -1,8 +1,8 @@
 //! Coarser graphs by heavy-edge matching.
 
 use super::graph::Graph;
-use super::{next_random, shuffled};
 use crate::limits::index32;
+use crate::random::{SplitMix64, shuffled};
 
 /// A graph of about half as many vertices, and the vertex that each of this one's is part of;
 /// `None` where too few could be paired.
@@ -10,13 +10,16 @@ use crate::limits::index32;
 /// Each vertex, in random order, is paired with the neighbour of the heaviest edge among those that
 /// are still alone: that edge can no longer be cut. Pairs heavier than `most` are not made, so that
 /// the coarsest vertices can still be balanced.
-pub(crate) fn coarser(graph: &Graph, most: u64, random: &mut u64) -> Option<(Graph, Vec<u32>)> {
+pub(crate) fn coarser(
+    graph: &Graph,
+    most: u64,
+    random: &mut SplitMix64,
+) -> Option<(Graph, Vec<u32>)> {
     const ALONE: u32 = u32::MAX;
     let vertex_count = graph.vertex_count();
     let mut group_of = vec![ALONE; vertex_count];
-    *random = next_random(*random);
     let mut count = 0;
-    for vertex in shuffled(vertex_count, *random) {
+    for vertex in shuffled(vertex_count, random.next()) {
         if group_of[vertex as usize] != ALONE {
             continue;
         }

@@ -2,9 +2,10 @@
 
 use super::bisection::{Bisection, halves};
 use super::graph::Graph;
-use super::{next_random, part_weights};
+use super::part_weights;
 use crate::limits::index32;
 use crate::parallel;
+use crate::random::SplitMix64;
 
 /// Cuts a graph into parts of like weight with few edges between them.
 ///
@@ -147,7 +148,7 @@ impl Rules {
             first_part,
             parts,
             level: job.level + 1,
-            seed: next_random(job.seed ^ u64::from(first_part)),
+            seed: SplitMix64(job.seed ^ u64::from(first_part)).next(),
         });
         parallel::map(jobs.into(), |job| self.cut(job)).concat()
     }

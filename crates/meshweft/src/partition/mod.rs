@@ -63,25 +63,5 @@ fn part_weights(graph: &Graph, parts: &[u32], count: u32) -> Vec<u64> {
     weights
 }
 
-/// 0 to `count`, in an order that `random` decides (Fisher, Yates).
-fn shuffled(count: usize, mut random: u64) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..index32(count)).collect();
-    for i in (1..order.len()).rev() {
-        random = next_random(random);
-        // The high bits of the product with i + 1 are evenly spread below it.
-        let below = (u128::from(random) * (i as u128 + 1)) >> 64;
-        order.swap(i, usize::try_from(below).unwrap_or(0));
-    }
-    order
-}
-
-/// The next number of the generator SplitMix64 (G. Steele, D. Lea, C. Flood, 2014), mixed.
-fn next_random(random: u64) -> u64 {
-    let mut z = random.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
-
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::random::SplitMix64;
 
 /// The least cut of all with both sides within `most`.
 fn least_cut(graph: &Graph, most: u64) -> u64 {
@@ -47,7 +48,7 @@ proptest! {
 
     #[test]
     fn a_contraction_keeps_weights_and_cuts(graph in graphs(), seed in any::<u64>()) {
-        let mut random = seed;
+        let mut random = SplitMix64(seed);
         let Some((coarse, group_of)) = coarsen::coarser(&graph, 100, &mut random) else {
             return Ok(());
         };
@@ -70,16 +71,13 @@ proptest! {
 
 #[test]
 fn tiny_cuts_are_near_the_least() {
-    let mut random = 1;
-    let mut below = |most: u64| {
-        random = next_random(random);
-        u32::try_from(random % most).unwrap()
-    };
+    let mut random = SplitMix64(1);
+    let mut below = |limit: u32| index32(random.below(limit as usize));
     let (mut sum, mut least_sum) = (0, 0);
     for _ in 0..300 {
         let count = 4 + below(8);
         let edges: Vec<_> = (0..2 * count)
-            .map(|_| (below(count.into()), below(count.into()), 1 + below(3)))
+            .map(|_| (below(count), below(count), 1 + below(3)))
             .collect();
         let graph = Graph::from_edges(count as usize, &edges);
         let parts = Multilevel::default().partition(&graph);

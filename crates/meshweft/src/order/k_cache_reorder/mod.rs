@@ -49,6 +49,7 @@ mod oracle;
 use crate::cache::{CacheEvent, CacheModel, MIN_CACHE_SIZE, Schedule};
 use crate::limits::index32;
 use crate::mesh::Mesh;
+use crate::order::check_starts;
 use crate::order::greedy::Costs;
 use crate::permutation::{FaceOrder, Permutation};
 
@@ -160,11 +161,7 @@ impl KCacheReorder {
     /// ```
     #[must_use]
     pub fn polygon_order(&self, mesh: &Mesh, starts: &[u32]) -> FaceOrder {
-        let ends = starts.first().copied().zip(starts.last().copied());
-        assert!(
-            ends == Some((0, index32(mesh.face_count()))) && starts.is_sorted(),
-            "polygons must start at 0, rise, and end at the number of faces"
-        );
+        check_starts(starts, mesh);
         let (CacheModel::Fifo { size }, Mode::Fast) = (self.cache, self.mode) else {
             return whole_polygons(&self.face_order(mesh), starts);
         };

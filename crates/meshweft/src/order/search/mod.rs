@@ -29,9 +29,8 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use crate::cache::{self, CacheModel, ParseCacheModelError};
-use crate::limits::index32;
 use crate::mesh::Mesh;
-use crate::order::KCacheReorder;
+use crate::order::{KCacheReorder, check_starts};
 use crate::permutation::FaceOrder;
 
 /// What an order is to be good for.
@@ -203,11 +202,7 @@ impl Optimizer {
     /// As [`face_order`](Self::face_order).
     #[must_use]
     pub fn polygon_order(&self, mesh: &Mesh, starts: &[u32]) -> FaceOrder {
-        let ends = starts.first().copied().zip(starts.last().copied());
-        assert!(
-            ends == Some((0, index32(mesh.face_count()))) && starts.is_sorted(),
-            "polygons must start at 0, rise, and end at the number of faces"
-        );
+        check_starts(starts, mesh);
         match self.greedy() {
             Some(greedy) => greedy.polygon_order(mesh, starts),
             None => parts::face_order(mesh, Some(starts), self),

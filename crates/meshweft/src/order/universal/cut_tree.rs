@@ -3,6 +3,7 @@
 use crate::limits::index32;
 use crate::parallel;
 use crate::partition::{Bisection, Graph, coarser, halves};
+use crate::random::SplitMix64;
 
 /// Faces cut in two down to pieces.
 #[derive(Debug)]
@@ -132,7 +133,7 @@ impl CutTree {
 
 /// A graph of clusters of up to [`CLUSTER`] vertices, and the cluster of each vertex.
 fn clusters(graph: &Graph, seed: u64) -> (Graph, Vec<u32>) {
-    let mut random = seed;
+    let mut random = SplitMix64(seed);
     let mut found: Option<(Graph, Vec<u32>)> = None;
     let mut heaviest = 2;
     while heaviest <= CLUSTER {

@@ -63,8 +63,8 @@ pub fn cost(faces: &[[u32; 3]]) -> u64 {
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LinearArrangement {
-    /// How many levels of the tree are oriented together, from 1 to 6; the paper's method is all of
-    /// them, in time that grows with the fourth power of two to them.
+    /// How many levels of the tree are oriented together, from 1 to 6. All of them would be the
+    /// paper's method; each level more takes twice the time.
     pub levels: u32,
     /// Who finds the cuts.
     pub cutter: Cutter,
@@ -93,7 +93,7 @@ impl LinearArrangement {
     /// so that hits come first in a FIFO cache of 12, unless that is forbidden.
     ///
     /// # Complexity
-    /// Time O(faces · (log faces + 4^levels / 2^levels)), space 150 bytes a face.
+    /// Time O(faces · (log faces + 2^levels)), space 150 bytes a face.
     #[must_use]
     pub fn face_order(&self, mesh: &Mesh) -> FaceOrder {
         let cutting = Cutting {
