@@ -23,9 +23,7 @@ pub(super) fn compact_parts(
         adjacency: Adjacency::new(faces, vertex_count),
         polygons,
         part: vec![0; faces.len()],
-        reached: vec![0; faces.len()],
         fans: vec![0; vertex_count],
-        walks: 0,
         queue: Vec::new(),
         parts: 1,
     };
@@ -52,10 +50,8 @@ struct Slicing<'a> {
     /// The part of each face, and the number of the next part.
     part: Vec<u32>,
     parts: u32,
-    /// The last walk that reached each face, and that went round each vertex.
-    reached: Vec<u32>,
+    /// The walk that last went round each vertex.
     fans: Vec<u32>,
-    walks: u32,
     /// Faces in the order in which the walk reached them.
     queue: Vec<u32>,
 }
@@ -109,28 +105,28 @@ impl Slicing<'_> {
     /// Lists the members by their distance from the first, and piece by piece what does not hang
     /// together with it.
     fn walk(&mut self, members: &[u32]) {
-        self.walks += 1;
         self.queue.clear();
         let part = self.part[members[0] as usize];
+        // What the walk has reached is a part of its own until it is sliced.
+        let reached = self.parts;
+        self.parts += 1;
         for &piece in members {
-            if self.reached[piece as usize] == self.walks {
+            if self.part[piece as usize] == reached {
                 continue;
             }
-            self.reached[piece as usize] = self.walks;
+            self.part[piece as usize] = reached;
             let mut next = self.queue.len();
             self.queue.push(piece);
             while let Some(&face) = self.queue.get(next) {
                 next += 1;
                 for vertex in self.faces[face as usize] {
                     // Once round each vertex, however many faces it has.
-                    if std::mem::replace(&mut self.fans[vertex as usize], self.walks) == self.walks
-                    {
+                    if std::mem::replace(&mut self.fans[vertex as usize], reached) == reached {
                         continue;
                     }
                     for &near in self.adjacency.faces_of(vertex) {
-                        let reached = &mut self.reached[near as usize];
-                        if *reached != self.walks && self.part[near as usize] == part {
-                            *reached = self.walks;
+                        if self.part[near as usize] == part {
+                            self.part[near as usize] = reached;
                             self.queue.push(near);
                         }
                     }
