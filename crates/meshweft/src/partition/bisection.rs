@@ -69,12 +69,18 @@ fn grown(graph: &Graph, asked: &Bisection, random: &mut SplitMix64) -> Vec<bool>
         let start = match attempt % 2 {
             0 => {
                 let start = index32(random.below(vertex_count));
-                by_distance(graph, start).last().copied().unwrap_or(0)
+                by_distance(graph, start, u64::MAX)
+                    .last()
+                    .copied()
+                    .unwrap_or(0)
             }
             // From the other end.
             _ => far,
         };
-        let order = by_distance(graph, start);
+        // The far end is of use to the next attempt only.
+        let is_far_of_use = attempt % 2 == 0 && attempt + 1 < asked.tries;
+        let enough = if is_far_of_use { u64::MAX } else { asked.first };
+        let order = by_distance(graph, start, enough);
         far = order.last().copied().unwrap_or(0);
         let mut side = vec![true; vertex_count];
         let mut weight = 0;
@@ -102,13 +108,14 @@ fn grown(graph: &Graph, asked: &Bisection, random: &mut SplitMix64) -> Vec<bool>
     best.map_or(Vec::new(), |sides| sides.side)
 }
 
-/// All vertices by their distance from `start`, and piece by piece what does not hang together with
-/// it.
-fn by_distance(graph: &Graph, start: u32) -> Vec<u32> {
+/// Vertices by their distance from `start`, and piece by piece what does not hang together with it,
+/// until they weigh enough.
+fn by_distance(graph: &Graph, start: u32, enough: u64) -> Vec<u32> {
     let vertex_count = graph.vertex_count();
     let mut is_reached = vec![false; vertex_count];
     let mut order = Vec::with_capacity(vertex_count);
     let mut next = 0;
+    let mut weight = 0;
     let starts = (vertex_count > 0).then_some(start).into_iter();
     for piece in starts.chain(0..index32(vertex_count)) {
         if std::mem::replace(&mut is_reached[piece as usize], true) {
@@ -117,6 +124,10 @@ fn by_distance(graph: &Graph, start: u32) -> Vec<u32> {
         order.push(piece);
         while let Some(&vertex) = order.get(next) {
             next += 1;
+            weight += u64::from(graph.weights[vertex as usize]);
+            if weight > enough {
+                return order;
+            }
             for &(other, _) in graph.row(vertex) {
                 if !std::mem::replace(&mut is_reached[other as usize], true) {
                     order.push(other);

@@ -22,6 +22,8 @@ pub(super) struct Sides<'a> {
     most: [u64; 2],
     /// Of each vertex: weight of the edges to the other side less that of those to its own.
     gains: Vec<i64>,
+    /// Vertices with an edge to the other side, as long as none has moved.
+    boundary: Option<Vec<u32>>,
     pub(super) cut: i64,
 }
 
@@ -32,21 +34,28 @@ impl<'a> Sides<'a> {
             weights: [0; 2],
             most,
             gains: Vec::with_capacity(side.len()),
+            boundary: None,
             cut: 0,
             side,
         };
+        let mut boundary = Vec::new();
         for vertex in 0..index32(sides.side.len()) {
             let here = sides.side[vertex as usize];
             sides.weights[usize::from(here)] += u64::from(graph.weights[vertex as usize]);
-            let mut gain = 0;
+            let mut sums = [0, 0];
             for &(other, weight) in graph.row(vertex) {
                 let is_cut = sides.side[other as usize] != here;
-                sides.cut += if is_cut { i64::from(weight) } else { 0 };
-                gain += if is_cut { 1 } else { -1 } * i64::from(weight);
+                sums[usize::from(is_cut)] += i64::from(weight);
             }
-            sides.gains.push(gain);
+            let [inside, across] = sums;
+            sides.cut += across;
+            sides.gains.push(across - inside);
+            if across > 0 {
+                boundary.push(vertex);
+            }
         }
         sides.cut /= 2;
+        sides.boundary = Some(boundary);
         sides
     }
 
@@ -75,17 +84,15 @@ impl<'a> Sides<'a> {
         // Where the balance is wrong all may have to move; where there are few, also what touches
         // nothing on the other side may make room.
         let are_all_tried = self.excess() > 0 || is_thorough && self.side.len() <= FEW;
-        for vertex in 0..index32(self.side.len()) {
-            let row = self.graph.row(vertex);
+        let known = self.boundary.take();
+        let boundary = match known {
+            Some(boundary) if !are_all_tried => boundary,
+            _ => self.movable(are_all_tried),
+        };
+        for vertex in boundary {
             let here = self.side[vertex as usize];
-            if are_all_tried
-                || row
-                    .iter()
-                    .any(|&(other, _)| self.side[other as usize] != here)
-            {
-                let gain = self.gains[vertex as usize];
-                heaps[usize::from(here)].push((gain, u32::MAX - vertex));
-            }
+            let gain = self.gains[vertex as usize];
+            heaps[usize::from(here)].push((gain, u32::MAX - vertex));
         }
         let start = (self.excess(), self.cut);
         let (mut best, mut kept) = (start, 0);
@@ -115,6 +122,17 @@ impl<'a> Sides<'a> {
             is_locked[vertex as usize] = false;
         }
         best < start
+    }
+
+    /// All vertices, or those with an edge to the other side.
+    fn movable(&self, all: bool) -> Vec<u32> {
+        let vertices = 0..index32(self.side.len());
+        let is_movable = |&vertex: &u32| {
+            let here = self.side[vertex as usize];
+            let mut row = self.graph.row(vertex).iter();
+            all || row.any(|&(other, _)| self.side[other as usize] != here)
+        };
+        vertices.filter(is_movable).collect()
     }
 
     /// The vertex of greatest gain whose move keeps the balance or betters it.
