@@ -7,8 +7,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use meshweft::Mesh;
 use meshweft::order::baselines;
+use meshweft::{CacheModel, Mesh, cache};
 
 pub mod counting;
 pub mod oracle;
@@ -109,6 +109,27 @@ pub fn say(line: &str) {
 pub fn mesh_name(file: &Path) -> String {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     name.split('.').next().unwrap_or_default().to_owned()
+}
+
+/// The folder of real meshes, or what to do where there is none.
+///
+/// # Errors
+/// If there is no such folder.
+///
+/// # Panics
+/// As [`data_folder`].
+pub fn needed_data_folder() -> Result<PathBuf, String> {
+    let advice = "name mesh files, or set MESHWEFT_DATA to the folder of test data";
+    data_folder().ok_or_else(|| advice.to_owned())
+}
+
+/// The figure that a cache is judged by: misses per vertex of a GPU, misses per face of any other.
+#[must_use]
+pub fn figure(faces: &[[u32; 3]], model: CacheModel) -> f64 {
+    match model {
+        CacheModel::Batch(_) => cache::atvr(faces, model),
+        _ => cache::acmr(faces, model),
+    }
 }
 
 /// Says what went wrong, if anything did.

@@ -21,6 +21,19 @@ pub fn medians<const N: usize, T>(
     seconds.map(median)
 }
 
+/// The median time of three runs in seconds (of one, if it takes long), and what the last one made.
+pub fn timed<T>(mut job: impl FnMut() -> T) -> (f64, T) {
+    let mut seconds = Vec::new();
+    loop {
+        let start = Instant::now();
+        let made = job();
+        seconds.push(start.elapsed().as_secs_f64());
+        if seconds.len() == 3 || seconds[0] > 2.0 {
+            return (median(seconds), made);
+        }
+    }
+}
+
 /// The middle value, the upper of two; 0 of none.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> f64 {

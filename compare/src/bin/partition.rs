@@ -36,9 +36,7 @@ fn main() -> ExitCode {
 fn run() -> Result<(), String> {
     let mut files: Vec<PathBuf> = std::env::args().skip(1).map(PathBuf::from).collect();
     if files.is_empty() {
-        let data = compare::data_folder();
-        let data =
-            data.ok_or("name mesh files, or set MESHWEFT_DATA to the folder of test data")?;
+        let data = compare::needed_data_folder()?;
         files = MESHES.map(|name| data.join("meshes").join(name)).to_vec();
     }
     println!(

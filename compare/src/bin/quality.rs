@@ -10,12 +10,12 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Instant;
 
 use compare::rivals::{self, Meshopt};
+use compare::timing::timed;
 use meshweft::order::universal::{Cutter, RecursiveCut};
 use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target, baselines};
-use meshweft::{CacheModel, FaceOrder, Mesh, cache};
+use meshweft::{CacheModel, FaceOrder, Mesh};
 
 fn main() -> ExitCode {
     compare::one_thread();
@@ -32,9 +32,7 @@ fn run() -> Result<(), String> {
         }
     }
     if files.is_empty() {
-        let data = compare::data_folder();
-        let data =
-            data.ok_or("name mesh files, or set MESHWEFT_DATA to the folder of test data")?;
+        let data = compare::needed_data_folder()?;
         files = compare::default_mesh_files(&data);
     }
     println!(
@@ -46,16 +44,13 @@ fn run() -> Result<(), String> {
     for file in &files {
         let mesh = compare::oracle::read(file).map_err(|error| error.to_string())?;
         let name = compare::mesh_name(file);
-        let (meshopt, _) = timed(&|mesh| Meshopt::VertexCache.ordered(mesh), &mesh);
+        let (meshopt, _) = timed(|| Meshopt::VertexCache.ordered(&mesh));
         for ((order, make), sums) in orders.iter().zip(&mut sums) {
             if !only.is_empty() && !only.iter().any(|text| order.contains(text)) {
                 continue;
             }
-            let (seconds, faces) = timed(make, &mesh);
-            let figures = Target::UNIVERSAL.map(|model| match model {
-                CacheModel::Batch(_) => cache::atvr(&faces, model),
-                _ => cache::acmr(&faces, model),
-            });
+            let (seconds, faces) = timed(|| make(&mesh));
+            let figures = Target::UNIVERSAL.map(|model| compare::figure(&faces, model));
             let time = seconds / meshopt;
             for (sum, figure) in sums.iter_mut().zip(figures.into_iter().chain([time])) {
                 *sum += figure / files.len() as f64;
@@ -83,19 +78,6 @@ fn run() -> Result<(), String> {
 fn cells(figures: &[f64]) -> String {
     let cells: Vec<String> = figures.iter().map(|f| format!("{f:.3}")).collect();
     cells.join(" | ")
-}
-
-/// The median of three runs in seconds (of one, if it takes long), and the faces in order.
-fn timed(make: &dyn Fn(&Mesh) -> Vec<[u32; 3]>, mesh: &Mesh) -> (f64, Vec<[u32; 3]>) {
-    let mut seconds = Vec::new();
-    loop {
-        let start = Instant::now();
-        let faces = make(mesh);
-        seconds.push(start.elapsed().as_secs_f64());
-        if seconds.len() == 3 || seconds[0] > 2.0 {
-            return (compare::timing::median(seconds), faces);
-        }
-    }
 }
 
 type Make = Box<dyn Fn(&Mesh) -> Vec<[u32; 3]>>;

@@ -10,11 +10,10 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Instant;
 
 use compare::rivals::Meshopt;
 use meshweft::order::{Effort, Optimizer, Target};
-use meshweft::{CacheModel, Mesh, cache};
+use meshweft::{CacheModel, Mesh};
 
 const EFFORTS: [(&str, Effort); 3] = [
     ("fast", Effort::Fast),
@@ -59,9 +58,7 @@ fn run() -> Result<(), String> {
         efforts = EFFORTS.to_vec();
     }
     if files.is_empty() {
-        let data = compare::data_folder();
-        let data =
-            data.ok_or("name mesh files, or set MESHWEFT_DATA to the folder of test data")?;
+        let data = compare::needed_data_folder()?;
         files = compare::default_mesh_files(&data);
     }
     let meshes: Vec<(String, Mesh)> = files
@@ -112,23 +109,11 @@ fn table(target: Target, efforts: &[(&str, Effort)], meshes: &[(String, Mesh)]) 
     println!();
 }
 
-/// The median of three runs in seconds (of one, if it takes long), and the figures of the order.
-fn timed(target: Target, mut order: impl FnMut() -> Vec<[u32; 3]>) -> (f64, Vec<f64>) {
-    let mut seconds = Vec::new();
-    let faces = loop {
-        let start = Instant::now();
-        let faces = order();
-        seconds.push(start.elapsed().as_secs_f64());
-        if seconds.len() == 3 || seconds[0] > 2.0 {
-            break faces;
-        }
-    };
-    let figure = |&model: &CacheModel| match model {
-        CacheModel::Batch(_) => cache::atvr(&faces, model),
-        _ => cache::acmr(&faces, model),
-    };
-    let figures = target.models().iter().map(figure).collect();
-    (compare::timing::median(seconds), figures)
+/// Seconds of an order, and its figures.
+fn timed(target: Target, order: impl FnMut() -> Vec<[u32; 3]>) -> (f64, Vec<f64>) {
+    let (seconds, faces) = compare::timing::timed(order);
+    let figure = |&model: &CacheModel| compare::figure(&faces, model);
+    (seconds, target.models().iter().map(figure).collect())
 }
 
 fn print_row(name: &str, rows: &[Vec<f64>], ratios: Option<&[f64]>) {

@@ -29,8 +29,7 @@ fn run() -> Result<(), String> {
     let file = match argument {
         Some(file) => PathBuf::from(file),
         None => {
-            let data = compare::data_folder();
-            let data = data.ok_or("name a mesh file, or set MESHWEFT_DATA")?;
+            let data = compare::needed_data_folder()?;
             data.join("meshes/dragon.ply.gz")
         }
     };

@@ -50,7 +50,8 @@ pub(crate) const METHODS: [Method; 9] = [
     },
 ];
 
-fn k_cache_reorder(mesh: &Mesh, size: u32, mode: Mode) -> FaceOrder {
+/// For a FIFO cache of a size.
+pub(crate) fn k_cache_reorder(mesh: &Mesh, size: u32, mode: Mode) -> FaceOrder {
     let algorithm = KCacheReorder {
         cache: CacheModel::fifo(size),
         mode,
@@ -59,7 +60,8 @@ fn k_cache_reorder(mesh: &Mesh, size: u32, mode: Mode) -> FaceOrder {
     algorithm.face_order(mesh)
 }
 
-fn universal(mesh: &Mesh, effort: Effort) -> FaceOrder {
+/// For every cache.
+pub(crate) fn universal(mesh: &Mesh, effort: Effort) -> FaceOrder {
     let optimizer = Optimizer {
         target: Target::Universal,
         effort,

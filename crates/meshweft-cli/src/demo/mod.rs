@@ -9,12 +9,13 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use meshweft::order::baselines::{random, tipsify};
-use meshweft::order::{KCacheReorder, Mode, Optimizer, vertex_fetch};
+use meshweft::order::{Effort, Mode, vertex_fetch};
 use meshweft::{CacheModel, FaceOrder, Mesh, cache};
 use serde_json::{Value, json};
 
 use crate::args::Demo;
 use crate::inspect::columns;
+use crate::methods::{k_cache_reorder, universal};
 
 /// Cache sizes of the columns.
 const SIZES: [u32; 3] = [12, 16, 32];
@@ -36,18 +37,8 @@ const METHODS: [Method; 6] = [
     ("K-Cache-Reorder, fast", |mesh, size| {
         k_cache_reorder(mesh, size, Mode::Fast)
     }),
-    ("universal", |mesh, _| Optimizer::default().face_order(mesh)),
+    ("universal", |mesh, _| universal(mesh, Effort::Fast)),
 ];
-
-fn k_cache_reorder(mesh: &Mesh, size: u32, mode: Mode) -> FaceOrder {
-    let cache = CacheModel::fifo(size);
-    let algorithm = KCacheReorder {
-        cache,
-        mode,
-        ..Default::default()
-    };
-    algorithm.face_order(mesh)
-}
 
 /// Makes the meshes, orders them, prints what came out, writes a GLB and a picture.
 pub(crate) fn run(arguments: &Demo) -> Result<()> {

@@ -1,19 +1,17 @@
 //! Figures 3, 6, 7, 8, 9 and 10 of Lin and Yu 2006, beside ours.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
 use meshweft::order::baselines::{random, tipsify};
 use meshweft::order::{KCacheReorder, Mode};
 use meshweft::{CacheModel, Mesh, cache};
 use serde_json::{Value, json};
 
 use super::figures::{FIG_3, FIG_6, FIG_6_SIZES, FIG_7, FIG_9, Printed, SIZES};
-use super::{Figure, cells, head, mean, open};
+use super::{Figure, cells, head, mean, open, print};
 use crate::args::OfPaper;
-use crate::inspect::columns;
 
 /// Meshes above this many faces are left out of the figures that take many runs.
 const LARGE: usize = 200_000;
@@ -43,35 +41,18 @@ pub(crate) fn run(arguments: &OfPaper) -> Result<()> {
             arguments.data.display()
         );
     }
-    let progress = ProgressBar::new(6).with_style(ProgressStyle::with_template(
-        "[{elapsed}] figure {msg} {wide_bar} {pos}/{len}",
-    )?);
-    progress.enable_steady_tick(Duration::from_millis(500));
-    let figures: [(&str, MakeFigure); 6] = [
-        ("3", fig_3),
-        ("6", fig_6),
-        ("7", fig_7),
-        ("8", fig_8),
-        ("9", fig_9),
-        ("10", fig_10),
-    ];
-    let mut json = serde_json::Map::new();
-    json.insert("schema".into(), json!(1));
-    json.insert("paper".into(), json!("doi:10.1109/TVCG.2006.59"));
-    for (number, figure) in figures {
-        progress.set_message(number);
-        let figure = figure(&found);
-        progress.suspend(|| {
-            let rows = columns(&figure.rows);
-            arguments
-                .report
-                .text(&format!("Fig. {number}. {}\n{rows}\n", figure.title))
-        })?;
-        json.insert(format!("figure_{number}"), figure.json);
-        progress.inc(1);
-    }
-    progress.finish_and_clear();
-    Ok(arguments.report.json(&Value::Object(json))?)
+    print(
+        &arguments.report,
+        "10.1109/TVCG.2006.59",
+        &[
+            ("Fig. 3", "figure_3", &|| fig_3(&found)),
+            ("Fig. 6", "figure_6", &|| fig_6(&found)),
+            ("Fig. 7", "figure_7", &|| fig_7(&found)),
+            ("Fig. 8", "figure_8", &|| fig_8(&found)),
+            ("Fig. 9", "figure_9", &|| fig_9(&found)),
+            ("Fig. 10", "figure_10", &|| fig_10(&found)),
+        ],
+    )
 }
 
 /// A mesh of the paper that a file was found for.
@@ -111,9 +92,6 @@ impl Found {
         self.mesh.face_count() > LARGE
     }
 }
-
-/// Runs what a figure shows on the meshes found.
-type MakeFigure = fn(&[Found]) -> Figure;
 
 fn algorithm(cache: CacheModel, mode: Mode) -> KCacheReorder {
     KCacheReorder {

@@ -5,17 +5,48 @@ mod figures;
 pub(crate) mod lin_yu;
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use anyhow::Result;
+use indicatif::{ProgressBar, ProgressStyle};
 use meshweft::files::Document;
 use meshweft::{Limits, Mesh};
-use serde_json::Value;
+use serde_json::{Value, json};
+
+use crate::args::Report;
+use crate::inspect::columns;
 
 /// One figure as text and as JSON.
 struct Figure {
     title: String,
     rows: Vec<Vec<String>>,
     json: Value,
+}
+
+/// A figure's name, its key in JSON, and what makes it.
+type MakeFigure<'a> = (&'a str, &'a str, &'a dyn Fn() -> Figure);
+
+/// Makes one figure after the other and prints it; all of them as JSON in the end.
+fn print(report: &Report, doi: &str, figures: &[MakeFigure<'_>]) -> Result<()> {
+    let progress = ProgressBar::new(figures.len() as u64).with_style(ProgressStyle::with_template(
+        "[{elapsed}] {msg} {wide_bar} {pos}/{len}",
+    )?);
+    progress.enable_steady_tick(Duration::from_millis(500));
+    let mut json = serde_json::Map::new();
+    json.insert("schema".into(), json!(1));
+    json.insert("paper".into(), json!(format!("doi:{doi}")));
+    for &(name, key, make) in figures {
+        progress.set_message(name.to_owned());
+        let figure = make();
+        progress.suspend(|| {
+            let rows = columns(&figure.rows);
+            report.text(&format!("{name}. {}\n{rows}\n", figure.title))
+        })?;
+        json.insert(key.into(), figure.json);
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    Ok(report.json(&Value::Object(json))?)
 }
 
 /// The largest mesh of the first file with one of these names, there or in a folder `meshes`.

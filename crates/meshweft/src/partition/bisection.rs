@@ -30,7 +30,7 @@ pub(crate) struct Bisection {
 pub(crate) fn halves(graph: &Graph, asked: &Bisection) -> Vec<bool> {
     let mut random = SplitMix64(asked.seed);
     let mut levels: Vec<(Graph, Vec<u32>)> = Vec::new();
-    // No vertex heavier than a fifth of what balance needs at the coarsest level.
+    // No vertex much heavier than the mean of the coarsest level, so that this can be balanced.
     let heaviest = (graph.weight() / (asked.coarsest as u64).max(1)).max(1) * 3 / 2;
     loop {
         let finest = levels.last().map_or(graph, |(graph, _)| graph);

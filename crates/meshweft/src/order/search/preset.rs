@@ -197,8 +197,10 @@ fn batches(batch: BatchModel, effort: Effort) -> Preset {
 /// Intel's 128 entries, are where that is hard: they ask for compact growth, the small ones for long
 /// strips.
 fn universal(effort: Effort) -> Preset {
-    let (weights, score) = match effort {
+    let (window, windows, weights, score, horizon) = match effort {
         Effort::Fast => (
+            14,
+            [17, 66, 220],
             Weights {
                 missing: [fixed(1.0383), fixed(1.0671)],
                 live: fixed(0.0793),
@@ -213,8 +215,19 @@ fn universal(effort: Effort) -> Preset {
                 face: fixed(0.0343),
                 age: fixed(0.016),
             },
+            Horizon {
+                runs: 3,
+                steps: 24,
+                commit: 24,
+                candidates: 12,
+                noise: fixed(1.3579),
+                margin: fixed(0.35),
+                patience: 8,
+            },
         ),
         _ => (
+            13,
+            [33, 66, 236],
             Weights {
                 missing: [fixed(0.8144), fixed(0.8917)],
                 live: fixed(0.0482),
@@ -229,23 +242,6 @@ fn universal(effort: Effort) -> Preset {
                 face: fixed(0.0255),
                 age: fixed(0.016),
             },
-        ),
-    };
-    let (windows, horizon) = match effort {
-        Effort::Fast => (
-            [17, 66, 220],
-            Horizon {
-                runs: 3,
-                steps: 24,
-                commit: 24,
-                candidates: 12,
-                noise: fixed(1.3579),
-                margin: fixed(0.35),
-                patience: 8,
-            },
-        ),
-        _ => (
-            [33, 66, 236],
             Horizon {
                 runs: if effort == Effort::Best { 10 } else { 64 },
                 steps: 36,
@@ -264,7 +260,7 @@ fn universal(effort: Effort) -> Preset {
             batch_vertices: 32,
             ..CacheLimits::fifo(32)
         }),
-        window: if effort == Effort::Fast { 14 } else { 13 },
+        window,
         windows,
         weights,
         score,

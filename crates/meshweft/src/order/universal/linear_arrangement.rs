@@ -49,7 +49,7 @@ pub fn cost(faces: &[[u32; 3]]) -> u64 {
     cost
 }
 
-/// A rendering sequence by an approximate minimum linear arrangement (Bogomjakov & Gotsman 2001).
+/// A rendering sequence by an approximate minimum linear arrangement (Bogomjakov & Gotsman 2002).
 ///
 /// ```
 /// use meshweft::{Mesh, order::{baselines, universal::{LinearArrangement, linear_arrangement_cost}}};

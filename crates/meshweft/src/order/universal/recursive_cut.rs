@@ -18,7 +18,7 @@ use crate::parallel;
 use crate::partition::Graph;
 use crate::permutation::{FaceOrder, Permutation};
 
-/// A rendering sequence by recursive cut (Bogomjakov & Gotsman 2001).
+/// A rendering sequence by recursive cut (Bogomjakov & Gotsman 2002).
 ///
 /// ```
 /// use meshweft::{CacheModel, Mesh, cache, order::{baselines, universal::RecursiveCut}};
