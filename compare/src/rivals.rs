@@ -7,22 +7,18 @@ use meshweft::Mesh;
 use meshweft::cache::BatchModel;
 
 /// How many vertices meshoptimizer's analyzer counts as transformed.
-///
-/// # Panics
-/// If the model is one that the analyzer does not take.
 #[must_use]
 pub fn vertices_transformed(mesh: &Mesh, model: BatchModel) -> u64 {
-    assert!(model.cache_size >= 3 && (model.batch_vertices == 0 || model.batch_vertices >= 3));
     // SAFETY: the faces of a mesh are consecutive indices below its vertex count, and the sizes
-    // are those that the function asks for.
+    // are those that the function asks for: no model has others.
     let statistics = unsafe {
         ffi::meshopt_analyzeVertexCache(
             mesh.faces().as_ptr().cast(),
             mesh.face_count() * 3,
             mesh.vertex_count(),
-            model.cache_size,
-            model.batch_vertices,
-            model.batch_faces,
+            model.cache_size(),
+            model.batch_vertices(),
+            model.batch_faces(),
         )
     };
     u64::from(statistics.vertices_transformed)

@@ -13,9 +13,9 @@ fn replayed(faces: &[[u32; 3]], model: BatchModel) -> u64 {
     let (mut misses, mut batch_misses, mut batch_faces) = (0, 0, 0);
     for face in faces {
         let missing = face.iter().filter(|vertex| !queue.contains(vertex)).count();
-        let is_full = model.batch_faces != 0 && batch_faces == model.batch_faces;
+        let is_full = model.batch_faces() != 0 && batch_faces == model.batch_faces();
         let is_over =
-            model.batch_vertices != 0 && batch_misses + missing > model.batch_vertices as usize;
+            model.batch_vertices() != 0 && batch_misses + missing > model.batch_vertices() as usize;
         if is_full || is_over {
             queue.clear();
             (batch_misses, batch_faces) = (0, 0);
@@ -24,7 +24,7 @@ fn replayed(faces: &[[u32; 3]], model: BatchModel) -> u64 {
             if queue.contains(&vertex) {
                 continue;
             }
-            if queue.len() == model.cache_size as usize {
+            if queue.len() == model.cache_size() as usize {
                 queue.pop_front();
             }
             queue.push_back(vertex);
@@ -37,11 +37,7 @@ fn replayed(faces: &[[u32; 3]], model: BatchModel) -> u64 {
 }
 
 fn fifo(size: u32) -> BatchModel {
-    BatchModel {
-        cache_size: size,
-        batch_vertices: 0,
-        batch_faces: 0,
-    }
+    BatchModel::new(size, 0, 0)
 }
 
 #[track_caller]
@@ -50,8 +46,8 @@ fn assert_same_misses(mesh: &Mesh, model: BatchModel) {
     let theirs = vertices_transformed(mesh, model);
     assert_eq!(cache::misses(faces, CacheModel::Batch(model)), theirs);
     assert_eq!(replayed(faces, model), theirs, "the test's own replay");
-    if model.batch_vertices == 0 && model.batch_faces == 0 {
-        let ours = cache::misses(faces, CacheModel::fifo(model.cache_size));
+    if model.batch_vertices() == 0 && model.batch_faces() == 0 {
+        let ours = cache::misses(faces, CacheModel::fifo(model.cache_size()));
         assert_eq!(ours, theirs);
     }
 }
@@ -113,11 +109,11 @@ fn ten_thousand_random_cases_agree() {
             })
             .collect();
         let mesh = Mesh::connectivity_only(vertex_count as usize, faces).unwrap();
-        let own = BatchModel {
-            cache_size: 3 + numbers.below(68),
-            batch_vertices: [0, 3 + numbers.below(70)][numbers.below(2) as usize],
-            batch_faces: numbers.below(40),
-        };
+        let own = BatchModel::new(
+            3 + numbers.below(68),
+            [0, 3 + numbers.below(70)][numbers.below(2) as usize],
+            numbers.below(40),
+        );
         assert_same_misses(&mesh, fifo(3 + numbers.below(68)));
         assert_same_misses(&mesh, own);
         for gpu in GPUS {

@@ -41,11 +41,7 @@ fn assert_misses_in_range(faces: &[[u32; 3]], size: u32) {
         CacheModel::NVIDIA,
         CacheModel::AMD,
         CacheModel::INTEL,
-        CacheModel::Batch(BatchModel {
-            cache_size: size,
-            batch_vertices: size,
-            batch_faces: 5,
-        }),
+        CacheModel::Batch(BatchModel::new(size, size, 5)),
     ] {
         let report = cache::report(faces, model);
         assert!(report.used_vertices as u64 <= report.misses, "{model}");

@@ -22,7 +22,7 @@ fn target() -> impl Strategy<Value = Target> {
             .prop_map(Target::from),
         1 => batch.prop_map(|(cache_size, batch_vertices, batch_faces)| {
             let batch_vertices = if batch_vertices < 3 { 0 } else { batch_vertices };
-            CacheModel::Batch(BatchModel { cache_size, batch_vertices, batch_faces }).into()
+            CacheModel::Batch(BatchModel::new(cache_size, batch_vertices, batch_faces)).into()
         }),
     ]
 }

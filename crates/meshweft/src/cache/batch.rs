@@ -5,38 +5,61 @@
 //! those of meshoptimizer's analyzer, so that figures can be compared with the many that were
 //! made with it.
 
+use super::MIN_CACHE_SIZE;
 use super::fifo::Fifo;
 
 /// A FIFO cache that is emptied whenever a batch is full.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct BatchModel {
-    /// Entries of the FIFO cache inside a batch.
-    pub cache_size: u32,
-    /// Most vertices transformed in a batch; 0 for no limit.
-    pub batch_vertices: u32,
-    /// Most faces in a batch; 0 for no limit.
-    pub batch_faces: u32,
+    cache_size: u32,
+    batch_vertices: u32,
+    batch_faces: u32,
 }
 
 impl BatchModel {
     /// 32 entries, 32 vertices, 32 faces.
-    pub const NVIDIA: Self = Self {
-        cache_size: 32,
-        batch_vertices: 32,
-        batch_faces: 32,
-    };
+    pub const NVIDIA: Self = Self::new(32, 32, 32);
     /// 14 entries, 64 vertices, 128 faces.
-    pub const AMD: Self = Self {
-        cache_size: 14,
-        batch_vertices: 64,
-        batch_faces: 128,
-    };
+    pub const AMD: Self = Self::new(14, 64, 128);
     /// 128 entries, no batches.
-    pub const INTEL: Self = Self {
-        cache_size: 128,
-        batch_vertices: 0,
-        batch_faces: 0,
-    };
+    pub const INTEL: Self = Self::new(128, 0, 0);
+
+    /// A FIFO cache of `cache_size` vertices, emptied before a face with which the batch would
+    /// have more than `batch_vertices` misses or `batch_faces` faces; 0 for no limit.
+    ///
+    /// # Panics
+    /// If the cache size or the limit of vertices is below 3: no face fits.
+    #[must_use]
+    pub const fn new(cache_size: u32, batch_vertices: u32, batch_faces: u32) -> Self {
+        assert!(cache_size >= MIN_CACHE_SIZE, "a face needs three entries");
+        assert!(
+            batch_vertices == 0 || batch_vertices >= MIN_CACHE_SIZE,
+            "a face needs three vertices in its batch"
+        );
+        Self {
+            cache_size,
+            batch_vertices,
+            batch_faces,
+        }
+    }
+
+    /// Entries of the FIFO cache inside a batch.
+    #[must_use]
+    pub const fn cache_size(&self) -> u32 {
+        self.cache_size
+    }
+
+    /// Most vertices transformed in a batch; 0 for no limit.
+    #[must_use]
+    pub const fn batch_vertices(&self) -> u32 {
+        self.batch_vertices
+    }
+
+    /// Most faces in a batch; 0 for no limit.
+    #[must_use]
+    pub const fn batch_faces(&self) -> u32 {
+        self.batch_faces
+    }
 }
 
 /// The replay of a [`BatchModel`].
@@ -90,11 +113,7 @@ mod tests {
 
     #[test]
     fn a_full_batch_forgets_its_vertices() {
-        let model = BatchModel {
-            cache_size: 8,
-            batch_vertices: 0,
-            batch_faces: 2,
-        };
+        let model = BatchModel::new(8, 0, 2);
         let mut batches = Batches::new(model, 4);
         let strip = [[0, 1, 2], [2, 1, 3], [2, 1, 3]];
         assert_eq!(strip.map(|face| batches.draw(face)), [3, 1, 3]);
@@ -102,11 +121,7 @@ mod tests {
 
     #[test]
     fn a_face_that_does_not_fit_starts_a_batch() {
-        let model = BatchModel {
-            cache_size: 8,
-            batch_vertices: 4,
-            batch_faces: 0,
-        };
+        let model = BatchModel::new(8, 4, 0);
         let mut batches = Batches::new(model, 5);
         let strip = [[0, 1, 2], [2, 1, 3], [2, 3, 4]];
         assert_eq!(strip.map(|face| batches.draw(face)), [3, 1, 3]);

@@ -48,9 +48,10 @@ pub(super) fn belady(
         }
         let kept = distinct(face).count();
         while buffer.len() + kept > size as usize {
-            if let Some((_, vertex)) = buffer.pop_last() {
-                record(CacheEvent::Pop(vertex));
-            }
+            let Some((_, vertex)) = buffer.pop_last() else {
+                break;
+            };
+            record(CacheEvent::Pop(vertex));
         }
         for &vertex in &misses[..usize::from(missed)] {
             record(CacheEvent::Push(vertex));

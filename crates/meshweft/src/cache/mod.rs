@@ -32,30 +32,41 @@ pub const MAX_CACHE_SIZE: u32 = 65_536;
 
 /// A vertex cache; sizes are in vertices.
 ///
-/// Written and read as `fifo:16`, `lru:32`, `controllable:12`, `nvidia`, `amd`, `intel`.
+/// Written and read as `fifo:16`, `lru:32`, `controllable:12`, `nvidia`, `amd`, `intel`, and other
+/// batches as `batch:20/0/9`: cache size, most vertices and most faces in a batch.
+///
+/// Made by its constructors, which refuse a cache in which no face can be drawn; matched with `..`.
 ///
 /// ```
 /// use meshweft::CacheModel;
 /// assert_eq!("fifo:16".parse(), Ok(CacheModel::fifo(16)));
 /// assert_eq!(CacheModel::fifo(16).to_string(), "fifo:16");
+/// assert!(matches!(CacheModel::fifo(16), CacheModel::Fifo { size: 16, .. }));
+/// ```
+///
+/// ```compile_fail
+/// let no_face_fits = meshweft::CacheModel::Controllable { size: 2 };
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum CacheModel {
     /// The vertex that entered first leaves first; a hit changes nothing.
+    #[non_exhaustive]
     Fifo {
-        /// Cache size in vertices.
+        /// Cache size in vertices, at least [`MIN_CACHE_SIZE`].
         size: u32,
     },
     /// The vertex that was used longest ago leaves first.
+    #[non_exhaustive]
     Lru {
-        /// Cache size in vertices.
+        /// Cache size in vertices, at least [`MIN_CACHE_SIZE`].
         size: u32,
     },
     /// The program decides who leaves. A face order alone is counted with the best schedule there
     /// is for it (Belady: the vertex needed last leaves, never one of the face being drawn).
+    #[non_exhaustive]
     Controllable {
-        /// Cache size in vertices.
+        /// Cache size in vertices, at least [`MIN_CACHE_SIZE`].
         size: u32,
     },
     /// A GPU that gathers faces in batches and starts each with an empty cache.
@@ -105,7 +116,7 @@ impl CacheModel {
     pub const fn size(&self) -> u32 {
         match self {
             Self::Fifo { size } | Self::Lru { size } | Self::Controllable { size } => *size,
-            Self::Batch(batch) => batch.cache_size,
+            Self::Batch(batch) => batch.cache_size(),
         }
     }
 }
@@ -122,13 +133,15 @@ impl fmt::Display for CacheModel {
             Self::Batch(batch) => write!(
                 f,
                 "batch:{}/{}/{}",
-                batch.cache_size, batch.batch_vertices, batch.batch_faces
+                batch.cache_size(),
+                batch.batch_vertices(),
+                batch.batch_faces()
             ),
         }
     }
 }
 
-/// Why a text names no cache model.
+/// Why a text is not the name of a cache model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ParseCacheModelError {
     text: String,
@@ -138,8 +151,9 @@ impl fmt::Display for ParseCacheModelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{:?} is no cache model: use fifo:K, lru:K or controllable:K with K from \
-             {MIN_CACHE_SIZE} to {MAX_CACHE_SIZE}, or nvidia, amd, intel",
+            "{:?} is not a cache model: use fifo:K, lru:K or controllable:K with K from \
+             {MIN_CACHE_SIZE} to {MAX_CACHE_SIZE}, batch:K/VERTICES/FACES (0 for no limit), or \
+             nvidia, amd, intel",
             self.text
         )
     }
@@ -160,12 +174,11 @@ impl FromStr for CacheModel {
             "intel" => return Ok(Self::INTEL),
             _ => {}
         }
-        let (kind, size) = text.split_once(':').ok_or_else(error)?;
-        let digits_only = size.bytes().all(|b| b.is_ascii_digit());
-        let size = size.parse().ok().filter(|_| digits_only);
-        let size = size
-            .filter(|size| (MIN_CACHE_SIZE..=MAX_CACHE_SIZE).contains(size))
-            .ok_or_else(error)?;
+        let (kind, numbers) = text.split_once(':').ok_or_else(error)?;
+        if kind == "batch" {
+            return batch(numbers).map(Self::Batch).ok_or_else(error);
+        }
+        let size = number(numbers, MIN_CACHE_SIZE).ok_or_else(error)?;
         match kind {
             "fifo" => Ok(Self::Fifo { size }),
             "lru" => Ok(Self::Lru { size }),
@@ -173,6 +186,27 @@ impl FromStr for CacheModel {
             _ => Err(error()),
         }
     }
+}
+
+/// A number in digits alone, from `least` to the largest cache size.
+fn number(text: &str, least: u32) -> Option<u32> {
+    let digits_only = text.bytes().all(|b| b.is_ascii_digit());
+    let number = text.parse().ok().filter(|_| digits_only)?;
+    (least..=MAX_CACHE_SIZE).contains(&number).then_some(number)
+}
+
+/// A limit of a batch: 0 for none.
+fn limit(text: &str, least: u32) -> Option<u32> {
+    number(text, 0).filter(|&limit| limit == 0 || limit >= least)
+}
+
+/// `K/VERTICES/FACES`.
+fn batch(numbers: &str) -> Option<BatchModel> {
+    let (size, limits) = numbers.split_once('/')?;
+    let (vertices, faces) = limits.split_once('/')?;
+    let size = number(size, MIN_CACHE_SIZE)?;
+    let (vertices, faces) = (limit(vertices, MIN_CACHE_SIZE)?, limit(faces, 1)?);
+    Some(BatchModel::new(size, vertices, faces))
 }
 
 #[cfg(test)]
@@ -188,13 +222,17 @@ mod tests {
             "nvidia",
             "amd",
             "intel",
+            "batch:20/0/9",
+            "batch:3/3/0",
+            "batch:65536/65536/65536",
         ] {
             assert_eq!(name.parse::<CacheModel>().unwrap().to_string(), name);
         }
+        assert_eq!("batch:32/32/32".parse(), Ok(CacheModel::NVIDIA));
     }
 
     #[test]
-    fn what_is_no_model_is_refused_with_the_remedy() {
+    fn other_texts_are_refused_with_the_remedy() {
         for name in [
             "fifo",
             "fifo:2",
@@ -203,6 +241,13 @@ mod tests {
             "fifo:99999",
             "gpu",
             "lru:1.5",
+            "batch",
+            "batch:20/9",
+            "batch:2/0/9",
+            "batch:20/2/9",
+            "batch:20/0/9/1",
+            "batch:20//9",
+            "batch:20/0/70000",
             "",
         ] {
             let error = name.parse::<CacheModel>().unwrap_err().to_string();

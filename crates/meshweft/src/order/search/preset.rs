@@ -38,8 +38,8 @@ pub(super) fn preset(target: Target, effort: Effort) -> Preset {
             CacheModel::Fifo { size } => fifo(size, effort),
             CacheModel::Lru { size } => fifo(lru_as_fifo(size), effort),
             CacheModel::Controllable { size } => controllable(size, effort),
-            CacheModel::Batch(batch) if batch.batch_vertices == 0 && batch.batch_faces == 0 => {
-                fifo(batch.cache_size, effort)
+            CacheModel::Batch(batch) if batch.batch_vertices() == 0 && batch.batch_faces() == 0 => {
+                fifo(batch.cache_size(), effort)
             }
             CacheModel::Batch(batch) => batches(batch, effort),
         },
@@ -142,9 +142,9 @@ fn controllable(size: u32, effort: Effort) -> Preset {
 fn batches(batch: BatchModel, effort: Effort) -> Preset {
     let unlimited = |limit: u32| if limit == 0 { u32::MAX } else { limit };
     let limits = CacheLimits {
-        batch_faces: unlimited(batch.batch_faces),
-        batch_vertices: unlimited(batch.batch_vertices),
-        ..CacheLimits::fifo(batch.cache_size.clamp(3, MAX_SIZE))
+        batch_faces: unlimited(batch.batch_faces()),
+        batch_vertices: unlimited(batch.batch_vertices()),
+        ..CacheLimits::fifo(batch.cache_size().clamp(3, MAX_SIZE))
     };
     let base = fifo(limits.size, effort);
     let most_pushes = limits

@@ -35,11 +35,11 @@ fn limits() -> impl Strategy<Value = CacheLimits> {
 
 fn model(limits: CacheLimits) -> CacheModel {
     let limit = |limit: u32| if limit == u32::MAX { 0 } else { limit };
-    CacheModel::Batch(BatchModel {
-        cache_size: limits.size,
-        batch_vertices: limit(limits.batch_vertices),
-        batch_faces: limit(limits.batch_faces),
-    })
+    CacheModel::Batch(BatchModel::new(
+        limits.size,
+        limit(limits.batch_vertices),
+        limit(limits.batch_faces),
+    ))
 }
 
 fn turned<M, const CACHES: usize>(state: &State<'_, M, CACHES>) -> Vec<[u32; 3]> {
