@@ -184,6 +184,7 @@ pub fn irregular_grid(side: u32) -> Mesh {
         faces.extend(order.apply(&in_block));
     }
     let vertex_count = (side as usize + 1) * (side as usize + 1);
-    let by_use = meshweft::order::vertex_fetch(&faces, vertex_count);
+    let in_blocks = meshweft::Faces::new(&faces, vertex_count).expect("a grid is in range");
+    let by_use = meshweft::order::vertex_fetch(in_blocks);
     Mesh::connectivity_only(vertex_count, by_use.renumber(&faces)).expect("a grid is in range")
 }

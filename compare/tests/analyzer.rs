@@ -135,7 +135,7 @@ fn every_real_mesh_agrees_in_every_order() {
             };
             let ordered = mesh.with_face_order(&algorithm.face_order(mesh));
             assert_agreement(&ordered);
-            let by_use = vertex_fetch(ordered.faces(), ordered.vertex_count());
+            let by_use = vertex_fetch(&ordered);
             assert_same_fetches(&ordered.with_vertex_order(&by_use), 32);
         }
     });

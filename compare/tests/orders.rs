@@ -1,7 +1,7 @@
 //! Every order is a permutation of the faces: of every real mesh, and of ten thousand soups.
 
 use meshweft::order::baselines::{random, tipsify};
-use meshweft::order::universal::{Cutter, LinearArrangement, RecursiveCut};
+use meshweft::order::bogomjakov_gotsman::{Cutter, LinearArrangement, RecursiveCut};
 use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target};
 use meshweft::{CacheModel, FaceOrder, Mesh, Permutation};
 

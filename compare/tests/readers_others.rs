@@ -203,7 +203,7 @@ fn reordered(file: &Path) -> Vec<u8> {
         let members = document.meshes().iter().filter(|m| m.vertex_group == group);
         // Vertices that several meshes share would need an order for all of them.
         let movable = entry.vertices_movable && members.count() == 1;
-        let vertices = movable.then(|| vertex_fetch(entry.mesh.faces(), entry.mesh.vertex_count()));
+        let vertices = movable.then(|| vertex_fetch(&entry.mesh));
         document.apply(mesh, &faces, vertices.as_ref()).unwrap();
     }
     document.to_bytes(file).unwrap()

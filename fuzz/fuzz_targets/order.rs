@@ -6,9 +6,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::order::universal::{LinearArrangement, RecursiveCut};
+use meshweft::order::bogomjakov_gotsman::{LinearArrangement, RecursiveCut};
 use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target, baselines, vertex_fetch};
-use meshweft::{CacheModel, FaceOrder, Mesh, Permutation, cache};
+use meshweft::{Budget, CacheModel, FaceOrder, Mesh, Permutation, cache};
 
 fuzz_target!(|data: &[u8]| {
     let Some((settings, corners)) = data.split_first_chunk::<8>() else {
@@ -41,7 +41,7 @@ fuzz_target!(|data: &[u8]| {
     search(&mesh, size, flags);
     check(&mesh, &RecursiveCut::default().face_order(&mesh));
     check(&mesh, &LinearArrangement::default().face_order(&mesh));
-    let by_use = vertex_fetch(mesh.faces(), mesh.vertex_count());
+    let by_use = vertex_fetch(&mesh);
     Permutation::new(by_use.new_to_old().to_vec()).expect("each vertex once");
 });
 
@@ -61,7 +61,7 @@ fn search(mesh: &Mesh, size: u32, flags: u8) {
             effort,
             seed: size.into(),
             keep_corners: flags & 1 != 0,
-            time_budget: None,
+            budget: Budget::Unlimited,
         };
         check(mesh, &optimizer.face_order(mesh));
     }

@@ -290,7 +290,7 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
         let _ = (misses(entry), misses(&ordered));
         let vertices = entry
             .vertices_movable
-            .then(|| vertex_fetch(ordered.mesh.faces(), ordered.mesh.vertex_count()));
+            .then(|| vertex_fetch(&ordered.mesh));
         drop(ordered);
         document.apply(mesh, &faces, vertices.as_ref())?;
     }

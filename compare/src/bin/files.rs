@@ -126,7 +126,7 @@ fn orders(document: &Document) -> (FaceOrder, Option<VertexOrder>) {
     });
     let vertices = entry.vertices_movable.then(|| {
         let mesh = entry.mesh.with_face_order(&faces);
-        vertex_fetch(mesh.faces(), mesh.vertex_count())
+        vertex_fetch(&mesh)
     });
     (faces, vertices)
 }

@@ -47,7 +47,7 @@ fn run() -> Result<(), String> {
     let (mut logarithms, mut count) = (0.0, 0);
     for file in files {
         let mesh = compare::oracle::read(&file).map_err(|error| error.to_string())?;
-        let graph = Graph::dual(mesh.faces(), mesh.vertex_count());
+        let graph = Graph::dual(&mesh);
         let mut cells = String::new();
         let (mut seconds, mut metis_seconds) = (0.0, 0.0);
         for parts in PARTS {

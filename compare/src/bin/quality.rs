@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use compare::rivals::{self, Meshopt};
 use compare::timing::timed;
-use meshweft::order::universal::{Cutter, RecursiveCut};
+use meshweft::order::bogomjakov_gotsman::{Cutter, RecursiveCut};
 use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target, baselines};
 use meshweft::{CacheModel, FaceOrder, Mesh};
 

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use compare::counting::{Counting, with_peak};
-use meshweft::order::universal::RecursiveCut;
+use meshweft::order::bogomjakov_gotsman::RecursiveCut;
 use meshweft::order::{Effort, Optimizer, Target};
 use meshweft::{FaceOrder, Mesh, cache};
 

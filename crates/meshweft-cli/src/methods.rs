@@ -1,7 +1,7 @@
 //! Every order there is to show beside the others.
 
 use meshweft::order::baselines::{random, tipsify};
-use meshweft::order::universal::{LinearArrangement, RecursiveCut};
+use meshweft::order::bogomjakov_gotsman::{LinearArrangement, RecursiveCut};
 use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target};
 use meshweft::{CacheModel, FaceOrder, Mesh};
 

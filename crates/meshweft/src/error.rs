@@ -17,6 +17,11 @@ pub enum MeshError {
         /// How many vertices the mesh has.
         vertex_count: usize,
     },
+    /// Flat indices whose number is no multiple of three.
+    PartialFace {
+        /// How many there are.
+        len: usize,
+    },
     /// More vertices or faces than 32-bit numbers can count.
     TooLarge {
         /// `"vertices"` or `"faces"`.
@@ -71,6 +76,9 @@ impl fmt::Display for MeshError {
                     "face {face}, corner {corner}: index {index}, but the mesh has no vertices"
                 ),
             },
+            Self::PartialFace { len } => {
+                write!(f, "{len} indices are not whole faces: a face takes three")
+            }
             Self::TooLarge { what, count, limit } => {
                 write!(f, "{count} {what}: at most {limit} fit in 32-bit indices")
             }

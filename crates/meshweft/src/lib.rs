@@ -27,21 +27,26 @@
 //! The library is pure Rust, forbids unsafe code, has no dependency by default and gives the same
 //! result on every platform.
 
-pub mod adjacency;
 pub mod cache;
 mod error;
+mod faces;
 #[cfg(feature = "files")]
 pub mod files;
+mod index;
 mod limits;
 mod mesh;
 pub mod order;
 mod parallel;
 pub mod partition;
 mod permutation;
+mod progress;
 mod random;
+pub mod topology;
 
 pub use cache::CacheModel;
 pub use error::MeshError;
+pub use faces::Faces;
 pub use limits::Limits;
 pub use mesh::Mesh;
 pub use permutation::{FaceOrder, Permutation, VertexOrder};
+pub use progress::{Budget, Progress};

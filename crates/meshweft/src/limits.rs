@@ -1,10 +1,7 @@
 //! How much a reader accepts before it refuses.
 
-/// The largest number of faces: three indices each must be countable in 32 bits.
-pub(crate) const MAX_FACES: usize = (u32::MAX / 3) as usize;
-
-/// The largest number of vertices: every index and the count itself fit in 32 bits.
-pub(crate) const MAX_VERTICES: usize = u32::MAX as usize;
+#[cfg_attr(not(feature = "files"), expect(unused_imports))]
+pub(crate) use crate::index::{MAX_FACES, MAX_VERTICES, index32};
 
 /// What a reader accepts from bytes that nobody vouches for.
 ///
@@ -33,15 +30,4 @@ impl Default for Limits {
             nesting: 256,
         }
     }
-}
-
-/// `n` as a 32-bit index; callers have checked the count against [`MAX_FACES`] or [`MAX_VERTICES`].
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "counts are checked when a mesh or permutation is made"
-)]
-#[inline]
-pub(crate) fn index32(n: usize) -> u32 {
-    debug_assert!(n <= MAX_VERTICES);
-    n as u32
 }

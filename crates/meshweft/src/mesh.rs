@@ -1,7 +1,7 @@
 //! A triangle mesh, checked once.
 
 use crate::error::MeshError;
-use crate::limits::{MAX_FACES, MAX_VERTICES};
+use crate::faces::Faces;
 use crate::permutation::{FaceOrder, VertexOrder};
 
 /// Vertices and faces whose indices are known to be in range.
@@ -62,26 +62,7 @@ impl Mesh {
         vertex_count: usize,
         faces: Vec<[u32; 3]>,
     ) -> Result<Self, MeshError> {
-        for (what, count, limit) in [
-            ("vertices", vertex_count, MAX_VERTICES),
-            ("faces", faces.len(), MAX_FACES),
-        ] {
-            if count > limit {
-                return Err(MeshError::TooLarge { what, count, limit });
-            }
-        }
-        let out_of_range = |face: &[u32; 3]| face.iter().any(|&v| v as usize >= vertex_count);
-        if let Some(face) = faces.iter().position(out_of_range) {
-            let corner = (0..3)
-                .find(|&corner| faces[face][corner] as usize >= vertex_count)
-                .unwrap_or(0);
-            return Err(MeshError::IndexOutOfRange {
-                face,
-                corner,
-                index: faces[face][corner],
-                vertex_count,
-            });
-        }
+        Faces::new(&faces, vertex_count)?;
         Ok(Self {
             positions,
             faces,
@@ -99,6 +80,12 @@ impl Mesh {
     #[must_use]
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
+    }
+
+    /// The faces over the vertices of this mesh: what orders, counts and cuts take.
+    #[must_use]
+    pub fn as_faces(&self) -> Faces<'_> {
+        Faces::of_checked(&self.faces, self.vertex_count)
     }
 
     /// How many vertices there are, used or not.
@@ -167,22 +154,16 @@ impl Mesh {
     }
 }
 
+impl<'a> From<&'a Mesh> for Faces<'a> {
+    fn from(mesh: &'a Mesh) -> Self {
+        mesh.as_faces()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::permutation::Permutation;
-
-    #[test]
-    fn the_first_bad_corner_is_named() {
-        let error = Mesh::connectivity_only(4, [[0, 1, 2], [3, 4, 5]]).unwrap_err();
-        let expected = MeshError::IndexOutOfRange {
-            face: 1,
-            corner: 1,
-            index: 4,
-            vertex_count: 4,
-        };
-        assert_eq!(error, expected);
-    }
 
     #[test]
     fn no_vertices_and_no_faces_is_a_mesh() {

@@ -4,7 +4,8 @@
 //! a permutation is stored as `new_to_old`, so `out[i] = in[new_to_old[i]]`.
 
 use crate::error::MeshError;
-use crate::limits::{MAX_VERTICES, index32};
+use crate::faces::turned;
+use crate::index::{MAX_VERTICES, index32};
 
 /// Each number below its length once: `out[i] = in[new_to_old[i]]`.
 ///
@@ -281,14 +282,7 @@ impl FaceOrder {
     #[must_use]
     pub fn apply<T: Copy>(&self, faces: &[[T; 3]]) -> Vec<[T; 3]> {
         assert_eq!(faces.len(), self.len(), "face order of another length");
-        let rotated = |(new, &old): (usize, &u32)| {
-            let [a, b, c] = faces[old as usize];
-            match self.rotation(new) {
-                0 => [a, b, c],
-                1 => [b, c, a],
-                _ => [c, a, b],
-            }
-        };
+        let rotated = |(new, &old): (usize, &u32)| turned(faces[old as usize], self.rotation(new));
         self.new_to_old().iter().enumerate().map(rotated).collect()
     }
 }

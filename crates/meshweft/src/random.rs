@@ -1,6 +1,6 @@
 //! Random numbers that are the same on every platform.
 
-use crate::limits::index32;
+use crate::index::index32;
 
 /// G. Steele, D. Lea, C. Flood: *Fast Splittable Pseudorandom Number Generators*, 2014,
 /// doi:10.1145/2714064.2660195. Any number is a good start.

@@ -41,7 +41,7 @@ fn linear_orders(mesh: &Mesh) -> Vec<(CacheModel, FaceOrder)> {
             "{cache}"
         );
     }
-    let fetch = vertex_fetch(mesh.faces(), mesh.vertex_count());
+    let fetch = vertex_fetch(mesh);
     assert_eq!(fetch.len(), mesh.vertex_count());
     orders
 }

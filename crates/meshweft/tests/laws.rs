@@ -198,7 +198,7 @@ proptest! {
 
     #[test]
     fn vertices_by_first_use_are_all_there(mesh in meshes::any_mesh(), size in cache_size()) {
-        let order = vertex_fetch(mesh.faces(), mesh.vertex_count());
+        let order = vertex_fetch(&mesh);
         prop_assert_eq!(order.len(), mesh.vertex_count());
         let permutation = Permutation::new(order.new_to_old().to_vec()).expect("a permutation");
         let renumbered = order.renumber(mesh.faces());

@@ -4,7 +4,9 @@
 mod data;
 
 use data::{meshes, open};
-use meshweft::order::universal::{LinearArrangement, RecursiveCut, linear_arrangement_cost};
+use meshweft::order::bogomjakov_gotsman::{
+    LinearArrangement, RecursiveCut, linear_arrangement_cost,
+};
 use meshweft::order::{Grid, baselines};
 use meshweft::{CacheModel, Mesh, cache};
 

@@ -2,11 +2,12 @@
 
 mod meshes;
 
-use std::time::Duration;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use meshweft::cache::{self, BatchModel, Schedule};
 use meshweft::order::{Effort, Optimizer, Target, baselines};
-use meshweft::{CacheModel, FaceOrder, Mesh, Permutation};
+use meshweft::{Budget, CacheModel, FaceOrder, Mesh, Permutation, Progress};
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 
@@ -34,7 +35,7 @@ prop_compose! {
         seed in any::<u64>(),
         keep_corners in any::<bool>(),
     ) -> Optimizer {
-        Optimizer { target, effort, seed, keep_corners, time_budget: None }
+        Optimizer { target, effort, seed, keep_corners, budget: Budget::Unlimited }
     }
 }
 
@@ -165,14 +166,81 @@ fn seeds_matter_to_a_search() {
     assert_ne!(on(1), on(2));
 }
 
-#[test]
-fn a_time_budget_gives_an_order() {
-    let mesh = shuffled_grid(40);
-    let optimizer = Optimizer {
-        time_budget: Some(Duration::from_millis(30)),
+/// A caller with a clock that is over by a hundredth at each look.
+#[derive(Default)]
+struct Hurried {
+    looks: AtomicUsize,
+}
+
+impl Progress for Hurried {
+    fn time_spent(&self) -> Option<f64> {
+        Some(self.looks.fetch_add(1, Ordering::Relaxed) as f64 / 100.0)
+    }
+}
+
+/// A caller who stops at the first report.
+#[derive(Default)]
+struct Stopping {
+    reports: AtomicUsize,
+}
+
+impl Progress for Stopping {
+    fn report(&self, fraction: f64) -> ControlFlow<()> {
+        assert!((0.0..=1.0).contains(&fraction));
+        self.reports.fetch_add(1, Ordering::Relaxed);
+        ControlFlow::Break(())
+    }
+}
+
+/// The universal target, the most effort.
+fn thorough(budget: Budget) -> Optimizer {
+    Optimizer {
+        effort: Effort::Max,
+        budget,
         ..Optimizer::default()
-    };
-    assert_reorders(&mesh, &optimizer.face_order(&mesh));
+    }
+}
+
+#[test]
+fn a_caller_with_a_clock_gets_an_order_in_its_time() {
+    let mesh = shuffled_grid(40);
+    let caller = Hurried::default();
+    let order = Optimizer::default().run(&mesh, None, &caller);
+    assert_reorders(&mesh, &order);
+    assert!(caller.looks.into_inner() > 10, "it looked at the clock");
+    let greedy = Optimizer::for_cache(CacheModel::fifo(12));
+    assert_ne!(
+        greedy.run(&mesh, None, &Hurried::default()),
+        greedy.face_order(&mesh),
+        "with time it searches"
+    );
+}
+
+#[test]
+fn what_is_stopped_is_whole_all_the_same() {
+    let mesh = shuffled_grid(60);
+    let caller = Stopping::default();
+    let order = thorough(Budget::Unlimited).run(&mesh, None, &caller);
+    assert_reorders(&mesh, &order);
+    assert!(caller.reports.into_inner() > 0, "it was heard of");
+    assert_ne!(order, thorough(Budget::Unlimited).face_order(&mesh));
+}
+
+#[test]
+fn a_budget_of_steps_is_kept_and_repeatable() {
+    let mesh = shuffled_grid(40);
+    let order = |steps| thorough(Budget::Steps(steps)).face_order(&mesh);
+    let misses = |steps| Target::Universal.misses(&order(steps).apply(mesh.faces()));
+    for steps in [0, 1, 10, 100] {
+        assert_reorders(&mesh, &order(steps));
+        assert_eq!(order(steps), order(steps));
+    }
+    assert_ne!(order(0), order(10));
+    assert!(misses(100) < misses(0), "steps are worth something");
+    let unlimited = thorough(Budget::Unlimited).face_order(&mesh);
+    assert_eq!(order(u64::MAX), unlimited);
+    // A step draws a vertex at least.
+    assert_eq!(order(41 * 41), unlimited);
 }
 
 #[test]
@@ -185,6 +253,7 @@ fn targets_are_read_as_they_are_written() {
         "nvidia",
         "amd",
         "intel",
+        "batch:20/0/9",
     ] {
         assert_eq!(name.parse::<Target>().unwrap().to_string(), name);
     }

@@ -30,7 +30,7 @@ const METHODS: [Method; 6] = [
         FaceOrder::identity(mesh.face_count())
     }),
     ("random", |mesh, _| random(mesh.face_count(), 7).into()),
-    ("Tipsify", tipsify),
+    ("Tipsify", |mesh, size| tipsify(mesh, size)),
     ("K-Cache-Reorder, faithful", |mesh, size| {
         k_cache_reorder(mesh, size, Mode::Faithful)
     }),
@@ -73,7 +73,7 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
     }
     let ordered = |mesh: &Mesh| {
         let mesh = mesh.with_face_order(&k_cache_reorder(mesh, 12, Mode::Fast));
-        mesh.with_vertex_order(&vertex_fetch(mesh.faces(), mesh.vertex_count()))
+        mesh.with_vertex_order(&vertex_fetch(&mesh))
     };
     let mut files = Vec::new();
     let mut write = |name: &str, bytes: Vec<u8>| {

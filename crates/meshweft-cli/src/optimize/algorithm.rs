@@ -1,10 +1,10 @@
 //! What orders the faces: chosen by the flags, checked before any file is touched.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use meshweft::cache::Schedule;
 use meshweft::order::{self, KCacheReorder, Optimizer, Target};
-use meshweft::{CacheModel, FaceOrder, Mesh};
+use meshweft::{Budget, CacheModel, FaceOrder, Mesh, Progress};
 
 use crate::args::{Effort, Mode, Optimize, Usage};
 
@@ -15,6 +15,8 @@ const MAX_SIZE: u32 = 1024;
 #[derive(Debug, Clone)]
 pub(super) struct Algorithm {
     optimizer: Optimizer,
+    /// How long to search, whatever the effort.
+    time_budget: Option<Duration>,
     /// Instead of the optimizer, with what it does not have: the paper's plain reading, weights.
     greedy: Option<KCacheReorder>,
 }
@@ -33,13 +35,15 @@ impl Algorithm {
             effort,
             seed: arguments.seed,
             keep_corners: arguments.keep_corners,
-            time_budget: arguments.time_budget.map(|budget| budget.0),
+            budget: Budget::Unlimited,
         };
+        let time_budget = arguments.time_budget.map(|budget| budget.0);
         let is_faithful = arguments.mode == Mode::Faithful;
         let weights = [arguments.k1, arguments.k2, arguments.k3];
         if !is_faithful && weights == [None; 3] {
             return Ok(Self {
                 optimizer,
+                time_budget,
                 greedy: None,
             });
         }
@@ -78,6 +82,7 @@ impl Algorithm {
         };
         Ok(Self {
             optimizer,
+            time_budget,
             greedy: Some(greedy),
         })
     }
@@ -90,7 +95,7 @@ impl Algorithm {
     /// Whether a second time on its own output can help nothing that is asked for.
     pub(super) fn runs_once(&self) -> bool {
         let mode = self.greedy.as_ref().map(|greedy| greedy.mode);
-        mode == Some(order::Mode::Faithful) || self.optimizer.time_budget.is_some()
+        mode == Some(order::Mode::Faithful) || self.time_budget.is_some()
     }
 
     /// Whether an order with `after` misses for `before` is worth writing.
@@ -109,7 +114,7 @@ impl Algorithm {
     /// The same for a mesh that has `share` of all faces, and whose corners may be turned or not.
     pub(super) fn for_mesh(&self, share: f64, turnable: bool) -> Self {
         let mut algorithm = self.clone();
-        let budget = &mut algorithm.optimizer.time_budget;
+        let budget = &mut algorithm.time_budget;
         *budget = budget.map(|time| time.mul_f64(share).max(Duration::from_millis(1)));
         algorithm.optimizer.keep_corners |= !turnable;
         if let Some(greedy) = &mut algorithm.greedy {
@@ -121,23 +126,19 @@ impl Algorithm {
     /// The order of the faces, the polygons that begin at `starts` kept whole, and the pushes of
     /// its schedule for a controllable cache.
     pub(super) fn order(&self, mesh: &Mesh, starts: Option<&[u32]>) -> (FaceOrder, u64) {
-        let Target::Cache(CacheModel::Controllable { size }) = self.target() else {
+        let Target::Cache(CacheModel::Controllable { size, .. }) = self.target() else {
             let order = match (&self.greedy, starts) {
-                (None, None) => self.optimizer.face_order(mesh),
-                (None, Some(starts)) => self.optimizer.polygon_order(mesh, starts),
+                (None, starts) => self.search(mesh, starts),
                 (Some(greedy), None) => greedy.face_order(mesh),
                 (Some(greedy), Some(starts)) => greedy.polygon_order(mesh, starts),
             };
             return (order, 0);
         };
         let is_search = self.optimizer.effort != order::Effort::Fast
-            || self.optimizer.time_budget.is_some()
+            || self.time_budget.is_some()
             || starts.is_some();
         if self.greedy.is_none() && is_search {
-            let order = match starts {
-                Some(starts) => self.optimizer.polygon_order(mesh, starts),
-                None => self.optimizer.face_order(mesh),
-            };
+            let order = self.search(mesh, starts);
             let pushes = Schedule::fewest_pushes(&order.apply(mesh.faces()), size).pushes();
             return (order, pushes);
         }
@@ -148,6 +149,30 @@ impl Algorithm {
         });
         let (order, schedule) = greedy.schedule(mesh);
         (order, schedule.pushes())
+    }
+}
+
+impl Algorithm {
+    fn search(&self, mesh: &Mesh, starts: Option<&[u32]>) -> FaceOrder {
+        match self.time_budget {
+            Some(time) => {
+                let start = Instant::now();
+                self.optimizer.run(mesh, starts, &Clock { start, time })
+            }
+            None => self.optimizer.run(mesh, starts, &()),
+        }
+    }
+}
+
+/// A caller with a clock.
+struct Clock {
+    start: Instant,
+    time: Duration,
+}
+
+impl Progress for Clock {
+    fn time_spent(&self) -> Option<f64> {
+        Some(self.start.elapsed().as_secs_f64() / self.time.as_secs_f64())
     }
 }
 
@@ -192,7 +217,7 @@ mod tests {
         let universal = algorithm("--effort max --seed 7 --time-budget 1.5s").unwrap();
         assert_eq!(universal.target(), Target::Universal);
         assert_eq!(universal.optimizer.seed, 7);
-        let budget = universal.for_mesh(0.5, true).optimizer.time_budget;
+        let budget = universal.for_mesh(0.5, true).time_budget;
         assert_eq!(budget, Some(Duration::from_millis(750)));
         assert!(universal.runs_once());
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use anyhow::Result;
 use meshweft::files::{Document, MeshEntry};
 use meshweft::order::{Target, vertex_fetch};
-use meshweft::{CacheModel, FaceOrder, VertexOrder, cache};
+use meshweft::{CacheModel, FaceOrder, Faces, VertexOrder, cache};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -157,7 +157,7 @@ impl Improvement {
                 all.copied().collect()
             };
             let now = faces(entries);
-            let order = vertex_fetch(&now, total.len());
+            let order = vertex_fetch(Faces::new(&now, total.len()).expect("faces of meshes"));
             if order.is_identity() {
                 continue;
             }

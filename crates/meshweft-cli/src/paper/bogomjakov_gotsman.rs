@@ -6,7 +6,9 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 use meshweft::order::baselines::random;
-use meshweft::order::universal::{LinearArrangement, RecursiveCut, linear_arrangement_cost};
+use meshweft::order::bogomjakov_gotsman::{
+    LinearArrangement, RecursiveCut, linear_arrangement_cost,
+};
 use meshweft::order::{Effort, Grid, Target};
 use meshweft::{CacheModel, Mesh, cache};
 use serde_json::{Value, json};

@@ -298,7 +298,7 @@ fn fig_8(found: &[Found]) -> Figure {
                 ..algorithm(model, Mode::Fast)
             };
             let acmr =
-                |mesh: &&Mesh| cache::acmr(&algorithm.face_order(mesh).apply(mesh.faces()), model);
+                |mesh: &&Mesh| cache::acmr(&algorithm.face_order(*mesh).apply(mesh.faces()), model);
             mean(meshes.iter().map(acmr))
         })
     });
@@ -390,7 +390,7 @@ fn fig_10(found: &[Found]) -> Figure {
         let orders = [
             kcr(mesh, Mode::Faithful),
             kcr(mesh, Mode::Fast),
-            tipsify(mesh, SIZE),
+            tipsify(*mesh, SIZE),
         ];
         for (row, order) in ours.iter_mut().zip(orders) {
             let faces = order.apply(mesh.faces());

@@ -5,66 +5,12 @@
 //! those of meshoptimizer's analyzer, so that figures can be compared with the many that were
 //! made with it.
 
-use super::MIN_CACHE_SIZE;
 use super::fifo::Fifo;
-
-/// A FIFO cache that is emptied whenever a batch is full.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct BatchModel {
-    cache_size: u32,
-    batch_vertices: u32,
-    batch_faces: u32,
-}
-
-impl BatchModel {
-    /// 32 entries, 32 vertices, 32 faces.
-    pub const NVIDIA: Self = Self::new(32, 32, 32);
-    /// 14 entries, 64 vertices, 128 faces.
-    pub const AMD: Self = Self::new(14, 64, 128);
-    /// 128 entries, no batches.
-    pub const INTEL: Self = Self::new(128, 0, 0);
-
-    /// A FIFO cache of `cache_size` vertices, emptied before a face with which the batch would
-    /// have more than `batch_vertices` misses or `batch_faces` faces; 0 for no limit.
-    ///
-    /// # Panics
-    /// If the cache size or the limit of vertices is below 3: no face fits.
-    #[must_use]
-    pub const fn new(cache_size: u32, batch_vertices: u32, batch_faces: u32) -> Self {
-        assert!(cache_size >= MIN_CACHE_SIZE, "a face needs three entries");
-        assert!(
-            batch_vertices == 0 || batch_vertices >= MIN_CACHE_SIZE,
-            "a face needs three vertices in its batch"
-        );
-        Self {
-            cache_size,
-            batch_vertices,
-            batch_faces,
-        }
-    }
-
-    /// Entries of the FIFO cache inside a batch.
-    #[must_use]
-    pub const fn cache_size(&self) -> u32 {
-        self.cache_size
-    }
-
-    /// Most vertices transformed in a batch; 0 for no limit.
-    #[must_use]
-    pub const fn batch_vertices(&self) -> u32 {
-        self.batch_vertices
-    }
-
-    /// Most faces in a batch; 0 for no limit.
-    #[must_use]
-    pub const fn batch_faces(&self) -> u32 {
-        self.batch_faces
-    }
-}
+use super::model::BatchModel;
 
 /// The replay of a [`BatchModel`].
 #[derive(Debug, Clone)]
-pub(super) struct Batches {
+pub(crate) struct Batches {
     model: BatchModel,
     cache: Fifo,
     vertices: u32,
@@ -75,27 +21,37 @@ impl Batches {
     pub(super) fn new(model: BatchModel, vertex_count: usize) -> Self {
         Self {
             model,
-            cache: Fifo::new(model.cache_size, vertex_count),
+            cache: Fifo::new(model.cache_size(), vertex_count),
             vertices: 0,
             faces: 0,
         }
     }
 
-    /// Draws a face; how many of its corners missed.
+    /// Which corners of a face will miss if it is drawn next.
     ///
     /// Whether the face still fits is decided from the state before it, corner by corner, so a
     /// vertex that a degenerate face names twice counts twice for that decision.
+    pub(super) fn missing(&self, face: [u32; 3]) -> [bool; 3] {
+        let missing = face.map(|v| !self.cache.contains(v));
+        match self.is_full(missing.map(u32::from).iter().sum()) {
+            true => [true; 3],
+            false => missing,
+        }
+    }
+
+    /// Whether a face with so many misses starts a new batch.
+    fn is_full(&self, misses: u32) -> bool {
+        let (batch_vertices, batch_faces) = (self.model.batch_vertices(), self.model.batch_faces());
+        let faces_full = batch_faces != 0 && self.faces == batch_faces;
+        let vertices_full = batch_vertices != 0 && self.vertices + misses > batch_vertices;
+        faces_full || vertices_full
+    }
+
+    /// Draws a face; how many of its corners missed.
     pub(super) fn draw(&mut self, face: [u32; 3]) -> u8 {
         let absent = |&&v: &&u32| !self.cache.contains(v);
         let needed: u32 = face.iter().filter(absent).map(|_| 1).sum();
-        let BatchModel {
-            batch_vertices,
-            batch_faces,
-            ..
-        } = self.model;
-        let faces_full = batch_faces != 0 && self.faces == batch_faces;
-        let vertices_full = batch_vertices != 0 && self.vertices + needed > batch_vertices;
-        if faces_full || vertices_full {
+        if self.is_full(needed) {
             self.cache.clear();
             self.vertices = 0;
             self.faces = 0;

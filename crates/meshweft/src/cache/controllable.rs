@@ -9,8 +9,10 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-use crate::adjacency::distinct;
-use crate::limits::index32;
+use super::model::MIN_CACHE_SIZE;
+use crate::faces::Faces;
+use crate::index::index32;
+use crate::topology::distinct;
 
 /// Never needed again.
 const NEVER: u32 = u32::MAX;
@@ -19,12 +21,13 @@ const NEVER: u32 = u32::MAX;
 ///
 /// Time O(faces · log size), space 12 bytes a face, 8 a vertex and the buffer.
 pub(super) fn belady(
-    faces: &[[u32; 3]],
-    vertex_count: usize,
+    faces: Faces<'_>,
     size: u32,
     mut visit: impl FnMut(usize, u8),
     mut record: impl FnMut(CacheEvent),
 ) {
+    let (faces, vertex_count) = (faces.corners(), faces.vertex_count());
+
     // Next face after this one that names the same vertex, corner by corner.
     let mut next_use = vec![[NEVER; 3]; faces.len()];
     let mut coming = vec![NEVER; vertex_count];
@@ -34,6 +37,7 @@ pub(super) fn belady(
             coming[v as usize] = index32(number);
         }
     }
+
     // The buffer, sorted by next use; `coming` now holds the key of each vertex in it.
     let mut buffer: BTreeSet<(u32, u32)> = BTreeSet::new();
     for (number, &face) in faces.iter().enumerate() {
@@ -99,17 +103,10 @@ impl Schedule {
     /// # Complexity
     /// Time O(faces · log size), space 12 bytes a face and 8 a step.
     #[must_use]
-    pub fn fewest_pushes(faces: &[[u32; 3]], size: u32) -> Self {
-        assert!(size >= super::MIN_CACHE_SIZE, "a face needs three entries");
+    pub fn fewest_pushes<'a>(faces: impl Into<Faces<'a>>, size: u32) -> Self {
+        assert!(size >= MIN_CACHE_SIZE, "a face needs three entries");
         let mut events = Vec::new();
-        let vertex_count = super::metrics::vertex_span(faces);
-        belady(
-            faces,
-            vertex_count,
-            size,
-            |_, _| {},
-            |event| events.push(event),
-        );
+        belady(faces.into(), size, |_, _| {}, |event| events.push(event));
         Self { events }
     }
 
@@ -126,7 +123,8 @@ impl Schedule {
     ///
     /// # Errors
     /// [`ScheduleError`] at the first step that a cache of `size` entries cannot do.
-    pub fn play(&self, faces: &[[u32; 3]], size: u32) -> Result<u64, ScheduleError> {
+    pub fn play<'a>(&self, faces: impl Into<Faces<'a>>, size: u32) -> Result<u64, ScheduleError> {
+        let faces = faces.into().corners();
         let mut buffer = BTreeSet::new();
         let mut drawn = 0;
         for (step, &event) in self.events.iter().enumerate() {
@@ -219,8 +217,7 @@ mod tests {
             for size in 3..6 {
                 let mut total = 0;
                 belady(
-                    &faces,
-                    8,
+                    (&faces).into(),
                     size,
                     |_, missed| total += u32::from(missed),
                     |_| {},

@@ -20,7 +20,13 @@ impl Fifo {
 
     #[inline]
     pub(crate) fn contains(&self, vertex: u32) -> bool {
-        self.clock - self.entered[vertex as usize] <= self.size
+        self.age(vertex) <= self.size
+    }
+
+    /// Pushes since `vertex` was pushed last, itself included; above the size if it is not there.
+    #[inline]
+    pub(crate) fn age(&self, vertex: u32) -> u64 {
+        self.clock - self.entered[vertex as usize]
     }
 
     /// Uses `vertex`, pushing it if it is not there; whether it missed.

@@ -35,6 +35,10 @@ impl Lru {
         }
     }
 
+    pub(crate) fn contains(&self, vertex: u32) -> bool {
+        self.links[vertex as usize].present
+    }
+
     /// Uses `vertex`, making it the newest; whether it missed.
     pub(crate) fn miss(&mut self, vertex: u32) -> bool {
         let present = self.links[vertex as usize].present;

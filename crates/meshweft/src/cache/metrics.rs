@@ -1,51 +1,25 @@
 //! Counting misses: one replay serves every metric.
 
-use super::CacheModel;
-use super::batch::Batches;
 use super::controllable::belady;
-use super::fifo::Fifo;
-use super::lru::Lru;
+use super::drawing::Drawing;
+use super::model::CacheModel;
+use crate::faces::Faces;
 
 /// Calls `visit(face number, misses)` for each face in order.
-fn replay(faces: &[[u32; 3]], model: CacheModel, mut visit: impl FnMut(usize, u8)) {
-    let vertex_count = vertex_span(faces);
-    let each_corner = |miss: &mut dyn FnMut(u32) -> bool, visit: &mut dyn FnMut(usize, u8)| {
-        for (number, face) in faces.iter().enumerate() {
-            visit(number, face.map(|v| u8::from(miss(v))).iter().sum());
-        }
-    };
-    match model {
-        CacheModel::Fifo { size } => {
-            let mut cache = Fifo::new(size, vertex_count);
-            each_corner(&mut |v| cache.miss(v), &mut visit);
-        }
-        CacheModel::Lru { size } => {
-            let mut cache = Lru::new(size, vertex_count);
-            each_corner(&mut |v| cache.miss(v), &mut visit);
-        }
-        CacheModel::Controllable { size } => belady(faces, vertex_count, size, visit, |_| {}),
-        CacheModel::Batch(batch) => {
-            let mut cache = Batches::new(batch, vertex_count);
-            for (number, &face) in faces.iter().enumerate() {
+fn replay(faces: Faces<'_>, model: CacheModel, mut visit: impl FnMut(usize, u8)) {
+    match Drawing::new(model, faces.vertex_count()) {
+        Some(mut cache) => {
+            for (number, &face) in faces.corners().iter().enumerate() {
                 visit(number, cache.draw(face));
             }
         }
+        None => belady(faces, model.size(), visit, |_| {}),
     }
 }
 
-/// One past the largest index.
-pub(super) fn vertex_span(faces: &[[u32; 3]]) -> usize {
-    faces
-        .iter()
-        .flatten()
-        .map(|&v| v as usize + 1)
-        .max()
-        .unwrap_or(0)
-}
-
-fn used_vertices(faces: &[[u32; 3]]) -> usize {
-    let mut used = vec![false; vertex_span(faces)];
-    for &v in faces.iter().flatten() {
+fn used_vertices(faces: Faces<'_>) -> usize {
+    let mut used = vec![false; faces.vertex_count()];
+    for &v in faces.corners().iter().flatten() {
         used[v as usize] = true;
     }
     used.into_iter().filter(|&u| u).count()
@@ -88,10 +62,11 @@ fn ratio(count: u64, of: usize) -> f64 {
 /// Misses, faces and used vertices of this order under this cache.
 ///
 /// # Complexity
-/// Time O(faces), for a controllable cache O(faces · log size); space O(largest index), for a
+/// Time O(faces), for a controllable cache O(faces · log size); space O(vertices), for a
 /// controllable cache also 12 bytes a face.
 #[must_use]
-pub fn report(faces: &[[u32; 3]], model: CacheModel) -> CacheReport {
+pub fn report<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> CacheReport {
+    let faces = faces.into();
     CacheReport {
         misses: misses(faces, model),
         faces: faces.len(),
@@ -110,9 +85,9 @@ pub fn report(faces: &[[u32; 3]], model: CacheModel) -> CacheReport {
 /// # Complexity
 /// As [`report`].
 #[must_use]
-pub fn misses(faces: &[[u32; 3]], model: CacheModel) -> u64 {
+pub fn misses<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> u64 {
     let mut total = 0;
-    replay(faces, model, |_, missed| total += u64::from(missed));
+    replay(faces.into(), model, |_, missed| total += u64::from(missed));
     total
 }
 
@@ -126,7 +101,8 @@ pub fn misses(faces: &[[u32; 3]], model: CacheModel) -> u64 {
 /// # Complexity
 /// As [`report`].
 #[must_use]
-pub fn acmr(faces: &[[u32; 3]], model: CacheModel) -> f64 {
+pub fn acmr<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> f64 {
+    let faces = faces.into();
     ratio(misses(faces, model), faces.len())
 }
 
@@ -140,7 +116,7 @@ pub fn acmr(faces: &[[u32; 3]], model: CacheModel) -> f64 {
 /// # Complexity
 /// As [`report`].
 #[must_use]
-pub fn atvr(faces: &[[u32; 3]], model: CacheModel) -> f64 {
+pub fn atvr<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> f64 {
     report(faces, model).atvr()
 }
 
@@ -149,7 +125,8 @@ pub fn atvr(faces: &[[u32; 3]], model: CacheModel) -> f64 {
 /// # Complexity
 /// As [`report`], and one byte a face.
 #[must_use]
-pub fn misses_per_face(faces: &[[u32; 3]], model: CacheModel) -> Vec<u8> {
+pub fn misses_per_face<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> Vec<u8> {
+    let faces = faces.into();
     let mut missed_at = vec![0; faces.len()];
     replay(faces, model, |number, missed| missed_at[number] = missed);
     missed_at
@@ -164,16 +141,17 @@ pub fn misses_per_face(faces: &[[u32; 3]], model: CacheModel) -> Vec<u8> {
 /// If `vertex_size` is 0.
 ///
 /// # Complexity
-/// Time O(faces · `vertex_size` / 64), space O(largest index).
+/// Time O(faces · `vertex_size` / 64), space O(vertices).
 #[must_use]
-pub fn overfetch(faces: &[[u32; 3]], vertex_size: usize) -> f64 {
+pub fn overfetch<'a>(faces: impl Into<Faces<'a>>, vertex_size: usize) -> f64 {
+    let faces = faces.into();
     const LINE: u64 = 64;
     const LINES: usize = 2048;
     assert!(vertex_size > 0, "a vertex record has at least one byte");
     let mut cached = [0_u64; LINES];
     let mut fetched = 0;
     let size = vertex_size as u64;
-    for &vertex in faces.iter().flatten() {
+    for &vertex in faces.corners().iter().flatten() {
         let start = u64::from(vertex) * size;
         for line in start / LINE..(start + size).div_ceil(LINE) {
             // Lines are stored plus one: zero is "nothing yet".

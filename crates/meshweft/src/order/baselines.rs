@@ -1,10 +1,11 @@
 //! Orders to compare with: random, and Tipsify.
 
-use crate::adjacency::Adjacency;
-use crate::limits::index32;
-use crate::mesh::Mesh;
+use crate::cache::Fifo;
+use crate::faces::Faces;
+use crate::index::index32;
 use crate::permutation::{FaceOrder, Permutation};
 use crate::random::shuffled;
+use crate::topology::{Adjacency, distinct};
 
 /// `len` numbers in a random order, the same for the same seed on every platform.
 ///
@@ -31,48 +32,52 @@ pub fn random(len: usize, seed: u64) -> Permutation {
 /// # Complexity
 /// Time O(vertices + faces), space 16 bytes a vertex and 29 a face.
 #[must_use]
-pub fn tipsify(mesh: &Mesh, cache_size: u32) -> FaceOrder {
-    let faces = mesh.faces();
-    let adjacency = Adjacency::new(faces, mesh.vertex_count());
-    let mut live: Vec<u32> = (0..index32(mesh.vertex_count()))
+pub fn tipsify<'a>(faces: impl Into<Faces<'a>>, cache_size: u32) -> FaceOrder {
+    let faces = faces.into();
+    let adjacency = Adjacency::new(faces);
+    let all_vertices = 0..index32(faces.vertex_count());
+    let mut live: Vec<u32> = all_vertices
+        .clone()
         .map(|vertex| adjacency.degree(vertex))
         .collect();
-    let size = u64::from(cache_size);
-    let mut entered = vec![0_u64; mesh.vertex_count()];
-    let mut clock = size + 1;
+    let mut cache = Fifo::new(cache_size, faces.vertex_count());
     let mut dead_ends: Vec<u32> = Vec::new();
     let mut drawn = vec![false; faces.len()];
     let mut new_to_old = Vec::with_capacity(faces.len());
-    let mut in_file_order = 0..index32(mesh.vertex_count());
+    let mut in_file_order = all_vertices;
+
     let mut fan = in_file_order.next();
     while let Some(vertex) = fan {
+        // Draw what is left around the vertex.
         let fan_start = dead_ends.len();
         for &face in adjacency.faces_of(vertex) {
             if std::mem::replace(&mut drawn[face as usize], true) {
                 continue;
             }
             new_to_old.push(face);
-            for corner in faces[face as usize] {
+            let corners = faces.corners()[face as usize];
+            for corner in corners {
                 dead_ends.push(corner);
-                if clock - entered[corner as usize] > size {
-                    entered[corner as usize] = clock;
-                    clock += 1;
-                }
+                cache.miss(corner);
             }
-            for corner in crate::adjacency::distinct(faces[face as usize]) {
+            for corner in distinct(corners) {
                 live[corner as usize] -= 1;
             }
         }
-        // A vertex whose remaining fan still fits is worth the more the longer it has been there.
+
+        // Go on with one of its neighbours. A vertex whose remaining fan still fits is worth the
+        // more the longer it has been there.
         let worth = |&v: &u32| {
-            let age = clock - entered[v as usize];
-            let fits = age + 2 * u64::from(live[v as usize]) <= size;
+            let age = cache.age(v);
+            let fits = age + 2 * u64::from(live[v as usize]) <= u64::from(cache_size);
             if fits { age } else { 0 }
         };
         let candidates = dead_ends[fan_start..].iter().copied();
         let next = candidates
             .filter(|&v| live[v as usize] > 0)
             .reduce(|best, v| if worth(&v) > worth(&best) { v } else { best });
+
+        // At a dead end, go back.
         fan = next.or_else(|| {
             while let Some(vertex) = dead_ends.pop() {
                 if live[vertex as usize] > 0 {
@@ -89,6 +94,7 @@ pub fn tipsify(mesh: &Mesh, cache_size: u32) -> FaceOrder {
 mod tests {
     use super::*;
     use crate::cache::{self, CacheModel};
+    use crate::mesh::Mesh;
 
     #[test]
     fn random_orders_depend_on_the_seed_alone() {

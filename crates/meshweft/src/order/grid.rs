@@ -186,8 +186,8 @@ impl Grid {
         drawn
     }
 
-    fn start(&self) -> Sequence {
-        Sequence {
+    fn start(&self) -> CellSequence {
+        CellSequence {
             columns: self.columns,
             faces: Vec::with_capacity(self.face_count()),
         }
@@ -195,12 +195,12 @@ impl Grid {
 }
 
 /// Faces drawn so far.
-struct Sequence {
+struct CellSequence {
     columns: u32,
     faces: Vec<u32>,
 }
 
-impl Sequence {
+impl CellSequence {
     fn cell(&mut self, x: u32, y: u32, is_last_corner_first: bool) {
         let face = 2 * (y * self.columns + x);
         let turn = u32::from(is_last_corner_first);

@@ -1,29 +1,24 @@
 //! Rendering sequences: in which order to draw the faces, and to store the vertices.
 //!
-//! [`KCacheReorder`] is the method of this toolkit; [`baselines`] are what it is compared with.
-//! Faces come first, then [`vertex_fetch()`] puts the vertices in the order of their first use.
+//! [`Optimizer`] is the one call for every [`Target`] and [`Effort`]; [`KCacheReorder`] is the greedy
+//! below it; [`baselines`] are what they are compared with. Faces come first, then [`vertex_fetch()`]
+//! puts the vertices in the order of their first use.
 
 pub mod baselines;
+pub mod bogomjakov_gotsman;
 mod greedy;
 mod grid;
 mod k_cache_reorder;
+mod optimizer;
+mod polygons;
 mod search;
-pub mod universal;
+mod target;
+mod turn_corners;
 mod vertex_fetch;
 
 pub use grid::Grid;
 pub use k_cache_reorder::{KCacheReorder, Mode};
-pub use search::{Effort, Optimizer, ParseTargetError, Target};
+pub use optimizer::Optimizer;
+pub use target::{Effort, ParseTargetError, Target};
+pub use turn_corners::turn_corners;
 pub use vertex_fetch::vertex_fetch;
-
-use crate::limits::index32;
-use crate::mesh::Mesh;
-
-/// Panics unless `starts` are polygons of all faces.
-fn check_starts(starts: &[u32], mesh: &Mesh) {
-    let ends = starts.first().copied().zip(starts.last().copied());
-    assert!(
-        ends == Some((0, index32(mesh.face_count()))) && starts.is_sorted(),
-        "polygons must start at 0, rise, and end at the number of faces"
-    );
-}

@@ -3,7 +3,7 @@
 use super::coarsen::coarser;
 use super::graph::Graph;
 use super::refine::Sides;
-use crate::limits::index32;
+use crate::index::index32;
 use crate::random::SplitMix64;
 
 /// What is asked of a cut.

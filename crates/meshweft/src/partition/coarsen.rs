@@ -1,7 +1,7 @@
 //! Coarser graphs by heavy-edge matching.
 
 use super::graph::Graph;
-use crate::limits::index32;
+use crate::index::index32;
 use crate::random::{SplitMix64, shuffled};
 
 /// A graph of about half as many vertices, and the vertex that each of this one's is part of;

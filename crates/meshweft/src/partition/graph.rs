@@ -1,6 +1,8 @@
 //! Weighted graphs in compact rows.
 
-use crate::limits::index32;
+use crate::faces::Faces;
+use crate::index::index32;
+use crate::topology::rows::Rows;
 
 /// An undirected graph with weights on vertices and edges, both of them kept at both ends of an
 /// edge.
@@ -9,15 +11,14 @@ use crate::limits::index32;
 /// use meshweft::partition::Graph;
 /// // Two squares of two faces each, side by side: a path of four faces.
 /// let faces = [[0, 1, 4], [0, 4, 3], [1, 2, 4], [2, 5, 4]];
-/// let graph = Graph::dual(&faces, 6);
+/// let graph = Graph::dual(&faces);
 /// assert_eq!(graph.neighbours(0).collect::<Vec<_>>(), [(1, 1), (2, 1)]);
 /// assert_eq!((graph.vertex_count(), graph.edge_count()), (4, 3));
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Graph {
-    pub(super) offsets: Vec<u32>,
-    /// The other end and the weight of each edge, by vertex.
-    pub(super) edges: Vec<(u32, u32)>,
+    /// By vertex: the other end and the weight of each edge.
+    pub(super) edges: Rows<(u32, u32)>,
     pub(super) weights: Vec<u32>,
 }
 
@@ -33,29 +34,13 @@ impl Graph {
     /// Time and space O(vertices + edges).
     #[must_use]
     pub fn from_edges(vertex_count: usize, edges: &[(u32, u32, u32)]) -> Self {
-        let mut offsets = vec![0_u32; vertex_count + 1];
-        let proper = || edges.iter().filter(|(a, b, _)| a != b);
-        for &(a, b, _) in proper() {
-            offsets[a as usize + 1] += 1;
-            offsets[b as usize + 1] += 1;
-        }
-        for i in 0..vertex_count {
-            offsets[i + 1] += offsets[i];
-        }
-        let mut next = offsets.clone();
-        let mut rows = vec![(0, 0); offsets[vertex_count] as usize];
-        for &(a, b, weight) in proper() {
-            for (from, to) in [(a, b), (b, a)] {
-                let slot = &mut next[from as usize];
-                rows[*slot as usize] = (to, weight);
-                *slot += 1;
-            }
-        }
+        let proper = edges.iter().filter(|(a, b, _)| a != b);
+        let both_ends = proper.flat_map(|&(a, b, weight)| [(a, (b, weight)), (b, (a, weight))]);
         let raw = Self {
-            offsets,
-            edges: rows,
+            edges: Rows::by_counting(vertex_count, both_ends),
             weights: vec![1; vertex_count],
         };
+
         // As a contraction in which each vertex stays alone, which adds up what is parallel.
         let alone: Vec<u32> = (0..index32(vertex_count)).collect();
         raw.contracted(&alone, vertex_count)
@@ -65,43 +50,27 @@ impl Graph {
     ///
     /// Where more than two faces share an edge, each is joined to the next.
     ///
-    /// # Panics
-    /// If a face names a vertex that is not there.
-    ///
     /// # Complexity
     /// Time O(faces · log of the most faces at a vertex), space 60 bytes a face.
     #[must_use]
-    pub fn dual(faces: &[[u32; 3]], vertex_count: usize) -> Self {
+    pub fn dual<'a>(faces: impl Into<Faces<'a>>) -> Self {
+        let faces = faces.into();
+
         // The edges of all faces by their lesser end: the other end and the face.
         let ends = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
-        let mut offsets = vec![0_u32; vertex_count + 1];
-        for [a, b] in faces.iter().flat_map(ends) {
-            assert!(
-                (a.max(b) as usize) < vertex_count,
-                "face names vertex {a} or {b}"
-            );
-            offsets[a.min(b) as usize] += 1;
-        }
-        let mut end = 0;
-        for offset in &mut offsets {
-            end += *offset;
-            *offset = end;
-        }
-        let mut rows = vec![(0_u32, 0_u32); faces.len() * 3];
-        for (face, corners) in (0..index32(faces.len())).zip(faces).rev() {
-            for [a, b] in ends(corners) {
-                let slot = &mut offsets[a.min(b) as usize];
-                *slot -= 1;
-                rows[*slot as usize] = (a.max(b), face);
-            }
-        }
+        let numbered = (0_u32..).zip(faces.corners());
+        let items = numbered
+            .flat_map(|(face, corners)| ends(corners).map(|[a, b]| (a.min(b), (a.max(b), face))));
+        let mut by_lesser_end = Rows::by_counting(faces.vertex_count(), items);
+
+        // Faces that share an edge stand side by side in its sorted row.
         let mut edges = Vec::with_capacity(faces.len() * 3 / 2);
-        for row in offsets.windows(2) {
-            let row = &mut rows[row[0] as usize..row[1] as usize];
+        for row in by_lesser_end.rows_mut() {
             row.sort_unstable();
             let touching = row.windows(2).filter(|pair| pair[0].0 == pair[1].0);
             edges.extend(touching.map(|pair| (pair[0].1, pair[1].1, 1)));
         }
+        drop(by_lesser_end);
         Self::from_edges(faces.len(), &edges)
     }
 
@@ -114,7 +83,7 @@ impl Graph {
     /// How many edges there are.
     #[must_use]
     pub fn edge_count(&self) -> usize {
-        self.edges.len() / 2
+        self.edges.entries().len() / 2
     }
 
     /// The neighbours of a vertex, and the weights of the edges to them.
@@ -133,60 +102,41 @@ impl Graph {
 
     #[inline]
     pub(super) fn row(&self, vertex: u32) -> &[(u32, u32)] {
-        let v = vertex as usize;
-        &self.edges[self.offsets[v] as usize..self.offsets[v + 1] as usize]
+        self.edges.row(vertex)
     }
 
     /// The graph whose vertices are groups of this one's, `count` of them.
     pub(super) fn contracted(&self, group_of: &[u32], count: usize) -> Self {
         let mut weights = vec![0; count];
-        // The members of each group, listed by counting.
-        let mut starts = vec![0_u32; count + 1];
         for (&group, weight) in group_of.iter().zip(&self.weights) {
             weights[group as usize] += weight;
-            starts[group as usize + 1] += 1;
         }
-        for i in 0..count {
-            starts[i + 1] += starts[i];
-        }
-        let mut next = starts.clone();
-        let mut members = vec![0; group_of.len()];
-        for (vertex, &group) in (0..).zip(group_of) {
-            let slot = &mut next[group as usize];
-            members[*slot as usize] = vertex;
-            *slot += 1;
-        }
-        let mut offsets = Vec::with_capacity(count + 1);
-        offsets.push(0);
-        let mut edges: Vec<(u32, u32)> = Vec::with_capacity(self.edges.len() / 2);
-        // Where the edge to each group stands, if it is at or behind the start of the row.
+        let members = Rows::by_counting(count, group_of.iter().copied().zip(0_u32..));
+
+        let mut edges = Rows::with_capacity(count, self.edges.entries().len() / 2);
+        // Where the edge to each group stands, if it is at or after the start of the row.
         let mut place = vec![u32::MAX; count];
         for group in 0..index32(count) {
-            let start = edges.len();
-            let [from, to] = [group, group + 1].map(|g| starts[g as usize] as usize);
-            for &vertex in &members[from..to] {
+            let start = edges.entries().len();
+            for &vertex in members.row(group) {
                 for &(other, weight) in self.row(vertex) {
                     let other = group_of[other as usize];
                     if other == group {
                         continue;
                     }
                     let at = place[other as usize] as usize;
-                    match edges.get_mut(at) {
-                        Some(edge) if at >= start => edge.1 += weight,
+                    match edges.entries_mut().get_mut(at) {
+                        Some((_, sum)) if at >= start => *sum += weight,
                         _ => {
-                            place[other as usize] = index32(edges.len());
+                            place[other as usize] = index32(edges.entries().len());
                             edges.push((other, weight));
                         }
                     }
                 }
             }
-            offsets.push(index32(edges.len()));
+            edges.end_row();
         }
-        Self {
-            offsets,
-            edges,
-            weights,
-        }
+        Self { edges, weights }
     }
 
     /// The graphs of both sides, and which vertices of this one they have.
@@ -207,19 +157,15 @@ impl Graph {
     /// The graph of some vertices and the edges among them; `number` is the place of a vertex among
     /// them, if it is one of them.
     pub(crate) fn induced(&self, members: &[u32], number: impl Fn(u32) -> Option<u32>) -> Self {
-        let mut graph = Self {
-            offsets: Vec::with_capacity(members.len() + 1),
-            edges: Vec::with_capacity(self.edges.len() * members.len() / self.weights.len().max(1)),
-            weights: Vec::with_capacity(members.len()),
-        };
-        graph.offsets.push(0);
+        let share = self.edges.entries().len() * members.len() / self.weights.len().max(1);
+        let mut edges = Rows::with_capacity(members.len(), share);
+        let mut weights = Vec::with_capacity(members.len());
         for &vertex in members {
             let row = self.row(vertex).iter();
-            let inside = row.filter_map(|&(other, weight)| Some((number(other)?, weight)));
-            graph.edges.extend(inside);
-            graph.offsets.push(index32(graph.edges.len()));
-            graph.weights.push(self.weights[vertex as usize]);
+            edges.extend(row.filter_map(|&(other, weight)| Some((number(other)?, weight))));
+            edges.end_row();
+            weights.push(self.weights[vertex as usize]);
         }
-        graph
+        Self { edges, weights }
     }
 }

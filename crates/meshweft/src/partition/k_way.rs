@@ -3,7 +3,7 @@
 use super::bisection::{Bisection, halves};
 use super::graph::Graph;
 use super::part_weights;
-use crate::limits::index32;
+use crate::index::index32;
 use crate::parallel;
 use crate::random::SplitMix64;
 
@@ -14,7 +14,7 @@ use crate::random::SplitMix64;
 /// // A ladder of 100 squares.
 /// let square = |i: u32| [[2 * i, 2 * i + 1, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 2]];
 /// let faces: Vec<_> = (0..100).flat_map(square).collect();
-/// let graph = Graph::dual(&faces, 202);
+/// let graph = Graph::dual(&faces);
 /// let parts = Multilevel { parts: 4, ..Default::default() }.partition(&graph);
 /// assert_eq!(edge_cut(&graph, &parts), 3);
 /// assert!(imbalance(&graph, &parts, 4) <= 1.03);

@@ -67,7 +67,7 @@ impl Metis {
             values.map(number).collect()
         };
         let parts = number(self.parts)?;
-        if self.parts < 2 || graph.edges.is_empty() {
+        if self.parts < 2 || graph.edges.entries().is_empty() {
             // METIS refuses a graph without edges; then any parts of like weight are as good.
             return Ok(super::Multilevel {
                 parts: self.parts,
@@ -79,9 +79,9 @@ impl Metis {
         if graph.weight() > i32::MAX.unsigned_abs().into() {
             return Err(MetisError::TooLarge);
         }
-        let offsets = numbers(&mut graph.offsets.iter().copied())?;
-        let neighbours = numbers(&mut graph.edges.iter().map(|edge| edge.0))?;
-        let edge_weights = numbers(&mut graph.edges.iter().map(|edge| edge.1))?;
+        let offsets = numbers(&mut graph.edges.starts().iter().copied())?;
+        let neighbours = numbers(&mut graph.edges.entries().iter().map(|edge| edge.0))?;
+        let edge_weights = numbers(&mut graph.edges.entries().iter().map(|edge| edge.1))?;
         let weights = numbers(&mut graph.weights.iter().copied())?;
         #[expect(clippy::cast_possible_truncation, reason = "within what METIS takes")]
         let (slack, seed) = (

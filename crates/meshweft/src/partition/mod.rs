@@ -24,7 +24,7 @@ pub use k_way::Multilevel;
 #[cfg(feature = "metis")]
 pub use metis::{Metis, MetisError};
 
-use crate::limits::index32;
+use crate::index::index32;
 
 /// The weight of all edges between different parts; `parts[vertex]` is the part of each vertex.
 ///

@@ -4,7 +4,7 @@
 use std::collections::BinaryHeap;
 
 use super::graph::Graph;
-use crate::limits::index32;
+use crate::index::index32;
 
 /// Vertices of each side by their gain, ties to the lowest number.
 type Heaps = [BinaryHeap<(i64, u32)>; 2];

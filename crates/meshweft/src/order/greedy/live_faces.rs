@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use crate::limits::index32;
+use super::estimate::{gather_live, least_neighbours};
+use crate::faces::Faces;
+use crate::index::index32;
+use crate::topology::rows;
 
 /// A vertex on more faces than this is a *hub*: its comings and goings are not announced to its
 /// neighbours and it is not run tentatively. That bounds the work of a step, whatever the valence.
@@ -13,7 +16,7 @@ const STACKS: usize = 8;
 
 /// What a step needs to know of a vertex, side by side in memory.
 #[derive(Clone, Copy, Default)]
-pub(in crate::order) struct Vertex {
+pub(in crate::order) struct LiveVertex {
     /// FIFO: the clock when it was last pushed, 0 before. Controllable: whether it is in the cache.
     pub(in crate::order) entered: u32,
     /// Start of its row of faces; the next vertex's start ends it.
@@ -24,17 +27,11 @@ pub(in crate::order) struct Vertex {
     pub(in crate::order) white_corners: u32,
 }
 
-impl Vertex {
-    /// How many white neighbours it has at least, if it is in the cache and its fan is a surface's.
-    ///
-    /// A neighbour is a corner of one live face, or of two if it is inside the fan. One face being
-    /// drawn, the fan is open: `n` live faces share at most `n − 1` neighbours.
+impl LiveVertex {
+    /// How many white neighbours it has at least, if it is in the cache; see [`least_neighbours`].
     #[inline]
     pub(in crate::order) fn white_neighbours(&self) -> u32 {
-        let corners = self.white_corners;
-        corners
-            .div_ceil(2)
-            .max((corners + 1).saturating_sub(self.live))
+        least_neighbours(self.white_corners, self.live)
     }
 }
 
@@ -42,7 +39,7 @@ impl Vertex {
 pub(in crate::order) struct LiveFaces<'a> {
     pub(in crate::order) faces: &'a [[u32; 3]],
     /// One more entry than vertices, so that each row has an end.
-    pub(in crate::order) vertices: Vec<Vertex>,
+    pub(in crate::order) vertices: Vec<LiveVertex>,
     /// Rows of face numbers, drawn faces included.
     rows: Vec<u32>,
     /// Whether each face is drawn. Bytes, not bits: they are tested more often than a row is read.
@@ -57,32 +54,32 @@ pub(in crate::order) struct LiveFaces<'a> {
 
 impl<'a> LiveFaces<'a> {
     /// No face is drawn and every vertex is white.
-    pub(in crate::order) fn new(faces: &'a [[u32; 3]], vertex_count: usize) -> Self {
-        let mut vertices = vec![Vertex::default(); vertex_count + 1];
+    pub(in crate::order) fn new(faces: Faces<'a>) -> Self {
+        let (faces, vertex_count) = (faces.corners(), faces.vertex_count());
+
+        // Live counts, and from them where each row ends.
+        let mut vertices = vec![LiveVertex::default(); vertex_count + 1];
         for &[a, b, c] in faces {
             vertices[a as usize].live += 1;
             vertices[b as usize].live += 1;
             vertices[c as usize].live += 1;
         }
-        // `row` walks from the end of the row to its start while the row is filled from behind.
         let mut end = 0;
         for vertex in &mut vertices {
             end += vertex.live;
             vertex.row = end;
             vertex.white_corners = vertex.live.wrapping_mul(3);
         }
-        let mut rows = vec![0; faces.len() * 3];
-        for (face, corners) in (0..index32(faces.len())).zip(faces).rev() {
-            for &corner in corners {
-                let row = &mut vertices[corner as usize].row;
-                *row -= 1;
-                rows[*row as usize] = face;
-            }
-        }
+
+        // Rows whose starts stand with their vertices: no second line of memory for a row.
+        let mut entries = vec![0; faces.len() * 3];
+        let numbered = (0..index32(faces.len())).zip(faces).rev();
+        let items = numbered.map(|(face, corners)| corners.map(|corner| (corner, face)));
+        rows::place_from_behind(&mut vertices, |vertex| &mut vertex.row, items, &mut entries);
         Self {
             faces,
             vertices,
-            rows,
+            rows: entries,
             drawn: vec![false; faces.len()],
             dead_ends: Default::default(),
             stranded: false,
@@ -100,18 +97,8 @@ impl<'a> LiveFaces<'a> {
     /// Writes the live faces of `vertex`, in file order, to the front of `buffer`; how many.
     #[inline]
     pub(in crate::order) fn gather(&self, vertex: u32, buffer: &mut Vec<u32>) -> usize {
-        let row = &self.rows[self.row(vertex)];
-        if buffer.len() < row.len() {
-            buffer.resize(row.len(), 0);
-        }
-        let live = &mut buffer[..row.len()];
-        let mut count = 0;
-        for &face in row {
-            // Written in any case and kept only if live: no branch for the processor to guess.
-            live[count] = face;
-            count += usize::from(!self.drawn[face as usize]);
-        }
-        count
+        let row = self.rows[self.row(vertex)].iter().copied();
+        gather_live(row, &self.drawn, buffer)
     }
 
     /// Shows the corners of each live face of `vertex`, unless it is a hub.

@@ -1,5 +1,7 @@
 //! Turning a face's corners so that hits come first.
 
+use crate::faces::turned;
+
 /// How a face is turned, and which of its turned corners may have to be pushed.
 pub(in crate::order) struct Turn {
     pub(in crate::order) rotation: u8,
@@ -33,9 +35,7 @@ impl Turn {
 
     #[inline]
     pub(in crate::order) fn pushes(&self, corners: [u32; 3]) -> impl Iterator<Item = u32> {
-        let [a, b, c] = corners;
-        let turned = [[a, b, c], [b, c, a], [c, a, b]][self.rotation as usize];
-        turned.into_iter().skip(self.first)
+        turned(corners, self.rotation).into_iter().skip(self.first)
     }
 }
 

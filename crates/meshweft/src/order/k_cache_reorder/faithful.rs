@@ -6,30 +6,39 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap, VecDeque};
 
-use crate::adjacency::{Adjacency, distinct};
+use super::task::Task;
 use crate::cache::CacheEvent;
-use crate::limits::index32;
+use crate::index::index32;
 use crate::order::greedy::Costs;
 use crate::permutation::{FaceOrder, Permutation};
+use crate::topology::{Adjacency, distinct};
 
 /// Most faces of a tentative run.
 const MAX_RUN: u32 = 4096;
 
+/// Which cache the paper's greedy is run for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Evictions {
+    /// First in, first out.
+    Fifo,
+    /// The program decides.
+    Controllable,
+}
+
 /// Draws all faces; `record` receives each push, pop and draw.
 pub(super) fn face_order(
-    faces: &[[u32; 3]],
-    vertex_count: usize,
-    size: u32,
-    controllable: bool,
-    costs: &Costs,
-    first_focus: Option<u32>,
+    task: &Task<'_>,
+    evictions: Evictions,
     record: impl FnMut(CacheEvent),
 ) -> FaceOrder {
-    let adjacency = Adjacency::new(faces, vertex_count);
+    let (faces, vertex_count) = (task.faces.corners(), task.faces.vertex_count());
+    let controllable = evictions == Evictions::Controllable;
+    let size = task.size as usize;
+    let adjacency = Adjacency::new(task.faces);
     let around = (0..index32(vertex_count))
-        .map(|vertex| match controllable {
-            true => adjacency.faces_of(vertex).to_vec(),
-            false => clockwise(vertex, adjacency.faces_of(vertex), faces),
+        .map(|vertex| match evictions {
+            Evictions::Controllable => adjacency.faces_of(vertex).to_vec(),
+            Evictions::Fifo => clockwise(vertex, adjacency.faces_of(vertex), faces),
         })
         .collect::<Vec<_>>();
     let white = (0..index32(vertex_count))
@@ -37,20 +46,20 @@ pub(super) fn face_order(
         .collect();
     let reorder = Reorder {
         faces,
-        size: size as usize,
+        size,
         controllable,
-        costs,
+        costs: &task.costs,
         live: around.iter().map(|row| index32(row.len())).collect(),
         around,
         adjacency,
         drawn: vec![false; faces.len()],
-        buffer: VecDeque::with_capacity(size as usize + 1),
+        buffer: VecDeque::with_capacity(size + 1),
         gray: vec![false; vertex_count],
         white,
         record,
         new_to_old: Vec::with_capacity(faces.len()),
     };
-    Permutation::from_algorithm(reorder.run(first_focus)).into()
+    Permutation::from_algorithm(reorder.run(task.first_focus)).into()
 }
 
 struct Reorder<'a, R> {

@@ -11,6 +11,7 @@
 
 use std::hint::select_unpredictable;
 
+use super::task::Task;
 use crate::cache::CacheEvent;
 use crate::order::greedy::{Costs, Entry, LiveFaces, Queue};
 use crate::permutation::{FaceOrder, Permutation};
@@ -20,29 +21,22 @@ use crate::permutation::{FaceOrder, Permutation};
 const CANDIDATES: usize = 64;
 
 /// Draws all faces; `record` receives each step of the schedule.
-pub(super) fn face_order(
-    faces: &[[u32; 3]],
-    vertex_count: usize,
-    size: u32,
-    costs: &Costs,
-    first_focus: Option<u32>,
-    record: impl FnMut(CacheEvent),
-) -> FaceOrder {
-    let mut growth = Growth {
-        live: LiveFaces::new(faces, vertex_count),
-        costs,
-        size: size as usize,
-        queue: Queue::new(size),
+pub(super) fn face_order(task: &Task<'_>, record: impl FnMut(CacheEvent)) -> FaceOrder {
+    let mut growth = ControllableGrowth {
+        live: LiveFaces::new(task.faces),
+        costs: &task.costs,
+        size: task.size as usize,
+        queue: Queue::new(task.size),
         held: 0,
         pushes: 0,
         record,
-        new_to_old: Vec::with_capacity(faces.len()),
+        new_to_old: Vec::with_capacity(task.faces.len()),
     };
-    growth.run(first_focus);
+    growth.run(task.first_focus);
     Permutation::from_algorithm(growth.new_to_old).into()
 }
 
-struct Growth<'a, R> {
+struct ControllableGrowth<'a, R> {
     live: LiveFaces<'a>,
     costs: &'a Costs,
     size: usize,
@@ -55,7 +49,7 @@ struct Growth<'a, R> {
     new_to_old: Vec<u32>,
 }
 
-impl<R: FnMut(CacheEvent)> Growth<'_, R> {
+impl<R: FnMut(CacheEvent)> ControllableGrowth<'_, R> {
     fn run(&mut self, first_focus: Option<u32>) {
         let mut run = Vec::new();
         let mut next = first_focus;

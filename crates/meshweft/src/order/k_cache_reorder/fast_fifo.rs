@@ -6,24 +6,25 @@
 //! - A vertex is in the cache if it entered within the last `K` pushes, so one time stamp a vertex
 //!   is the whole cache, and a tentative run is undone by restoring a few stamps.
 //! - Each vertex knows how many white corners its live faces have, which bounds from below the
-//!   pushes that finishing it takes ([`Vertex::white_neighbours`](crate::order::greedy::LiveFaces)); a
+//!   pushes that finishing it takes ([`least_neighbours`](crate::order::greedy::least_neighbours)); a
 //!   push or an eviction updates its neighbours. Only the candidate that looks cheapest is run
 //!   tentatively; if the run confirms the estimate, no other candidate can be cheaper.
 //! - All costs are integers: a rounding difference would let platforms disagree.
 
 use std::hint::select_unpredictable;
 
-use crate::limits::index32;
+use super::task::Task;
+use crate::index::index32;
 use crate::order::greedy::{Costs, Entry, HUB, LiveFaces, Queue, Turn};
 use crate::permutation::{FaceOrder, Permutation};
 
 /// Most candidates looked at; see [`candidate_count`].
 const MAX_CANDIDATES: usize = 16;
 
-/// Most candidates that are run tentatively in a step; then the cheapest of these is taken. On a
+/// Most candidates that are drawn tentatively in a step; then the cheapest of these is taken. On a
 /// surface the first or second is the one; on a soup of faces, where the estimate is poor, this
 /// bounds the work.
-pub(super) const MAX_RUNS: u32 = 4;
+pub(super) const MAX_TENTATIVE: u32 = 4;
 
 /// How many of the oldest live vertices in the cache are candidates for the focus.
 ///
@@ -37,70 +38,29 @@ pub(super) fn candidate_count(size: u32) -> usize {
     }
 }
 
-pub(super) fn face_order(
-    faces: &[[u32; 3]],
-    vertex_count: usize,
-    size: u32,
-    costs: &Costs,
-    keep_corners: bool,
-    first_focus: Option<u32>,
-) -> FaceOrder {
-    let mut growth = Growth::new(faces, vertex_count, size, costs);
+/// Draws all faces.
+pub(super) fn face_order(task: &Task<'_>, keep_corners: bool) -> FaceOrder {
+    let mut growth = FifoGrowth::new(task);
     match keep_corners {
-        true => growth.run::<true, false>(first_focus),
-        false => growth.run::<false, false>(first_focus),
+        true => growth.grow::<true, false>(task.first_focus),
+        false => growth.grow::<false, false>(task.first_focus),
     }
     growth.order()
 }
 
-/// As [`face_order`] with corners kept, for polygons that are drawn as a whole: faces
-/// `starts[i]..starts[i + 1]` are polygon `i`.
-pub(super) fn polygon_order(
-    faces: &[[u32; 3]],
-    starts: &[u32],
-    vertex_count: usize,
-    size: u32,
-    costs: &Costs,
-    first_focus: Option<u32>,
-) -> FaceOrder {
-    let mut growth = Growth::new(faces, vertex_count, size, costs);
-    let polygons = (0_u32..).zip(starts.windows(2));
-    let polygon_of = polygons.flat_map(|(polygon, ends)| (ends[0]..ends[1]).map(move |_| polygon));
-    growth.polygons = Polygons {
-        starts,
-        of_face: polygon_of.collect(),
-    };
-    growth.run::<true, true>(first_focus);
+/// As [`face_order`] with corners kept, for polygons that are drawn as a whole: where the polygon of
+/// each face begins and ends.
+pub(super) fn polygon_order(task: &Task<'_>, polygons: &[[u32; 2]]) -> FaceOrder {
+    let mut growth = FifoGrowth::new(task);
+    growth.polygons = polygons;
+    growth.grow::<true, true>(task.first_focus);
     growth.order()
 }
 
-/// Faces that are drawn together; empty where each is on its own.
-#[derive(Default)]
-struct Polygons<'a> {
-    /// Their first faces, and the end of the last.
-    starts: &'a [u32],
-    of_face: Vec<u32>,
-}
-
-impl Polygons<'_> {
-    /// The faces of the polygon that `face` belongs to.
-    #[inline]
-    fn faces(&self, face: u32) -> std::ops::Range<u32> {
-        let polygon = self.of_face[face as usize] as usize;
-        self.starts[polygon]..self.starts[polygon + 1]
-    }
-}
-
-impl Growth<'_> {
-    fn order(self) -> FaceOrder {
-        let permutation = Permutation::from_algorithm(self.new_to_old);
-        FaceOrder::new(permutation, self.rotations).expect("one rotation below 3 a face")
-    }
-}
-
-struct Growth<'a> {
+struct FifoGrowth<'a> {
     live: LiveFaces<'a>,
-    polygons: Polygons<'a>,
+    /// Where the polygon of each face begins and ends; empty where each face is on its own.
+    polygons: &'a [[u32; 2]],
     costs: &'a Costs,
     size: u32,
     candidates: usize,
@@ -111,13 +71,13 @@ struct Growth<'a> {
     queue: Queue,
     /// The candidates of a step; kept to save clearing it each time.
     oldest: [Entry; MAX_CANDIDATES + 1],
-    run: Run,
+    tentative: Tentative,
     new_to_old: Vec<u32>,
     rotations: Vec<u8>,
 }
 
-/// The live faces of one vertex, and what a tentative run over them overwrote.
-struct Run {
+/// The live faces of one vertex, and what drawing them tentatively overwrote.
+struct Tentative {
     vertex: Option<u32>,
     /// The first `len` are meant.
     faces: Vec<u32>,
@@ -126,21 +86,25 @@ struct Run {
     undo: Vec<(u32, u32)>,
 }
 
-impl<'a> Growth<'a> {
-    fn new(faces: &'a [[u32; 3]], vertex_count: usize, size: u32, costs: &'a Costs) -> Self {
+impl<'a> FifoGrowth<'a> {
+    fn new(task: &'a Task<'_>) -> Self {
+        let Task {
+            faces, size, costs, ..
+        } = task;
+        let size = *size;
         let ring = (size as usize + 1).next_power_of_two();
         Self {
-            live: LiveFaces::new(faces, vertex_count),
-            polygons: Polygons::default(),
+            live: LiveFaces::new(*faces),
+            polygons: &[],
             costs,
             size,
             candidates: candidate_count(size),
             clock: size + 1,
             // The entry past the last vertex is on no face, so it leaves without a trace.
-            pushed: vec![index32(vertex_count); ring],
+            pushed: vec![index32(faces.vertex_count()); ring],
             queue: Queue::new(size),
             oldest: [(0, 0); MAX_CANDIDATES + 1],
-            run: Run {
+            tentative: Tentative {
                 vertex: None,
                 faces: vec![0; HUB as usize],
                 len: 0,
@@ -151,24 +115,31 @@ impl<'a> Growth<'a> {
         }
     }
 
-    fn run<const KEEP_CORNERS: bool, const POLYGONS: bool>(&mut self, first_focus: Option<u32>) {
+    fn order(self) -> FaceOrder {
+        let permutation = Permutation::from_algorithm(self.new_to_old);
+        FaceOrder::new(permutation, self.rotations).expect("one rotation below 3 a face")
+    }
+
+    /// Finishes one vertex after the other.
+    fn grow<const KEEP_CORNERS: bool, const POLYGONS: bool>(&mut self, first_focus: Option<u32>) {
         let mut next = first_focus;
         loop {
             next = next.or_else(|| self.cheapest_candidate::<KEEP_CORNERS, POLYGONS>());
             let Some(focus) = next.or_else(|| self.live.after_dead_end()) else {
                 return;
             };
-            if self.run.vertex != Some(focus) {
+            if self.tentative.vertex != Some(focus) {
                 self.gather(focus);
             }
-            self.run.vertex = None;
-            for i in 0..self.run.len {
-                let face = self.run.faces[i];
+            self.tentative.vertex = None;
+            for i in 0..self.tentative.len {
+                let face = self.tentative.faces[i];
                 match POLYGONS {
                     false => self.draw::<KEEP_CORNERS>(face),
                     // The polygon's other faces at this vertex are drawn by then.
                     true => {
-                        for face in self.polygons.faces(face) {
+                        let [start, end] = self.polygons[face as usize];
+                        for face in start..end {
                             self.draw::<KEEP_CORNERS>(face);
                         }
                     }
@@ -180,8 +151,8 @@ impl<'a> Growth<'a> {
 
     #[inline]
     fn gather(&mut self, vertex: u32) {
-        self.run.len = self.live.gather(vertex, &mut self.run.faces);
-        self.run.vertex = Some(vertex);
+        self.tentative.len = self.live.gather(vertex, &mut self.tentative.faces);
+        self.tentative.vertex = Some(vertex);
     }
 
     /// The candidate of least cost, ties to the oldest; `None` if no live vertex is in the cache.
@@ -226,9 +197,9 @@ impl<'a> Growth<'a> {
             let vertex = &self.live.vertices[focus as usize];
             // Without a push, or with one face left whose hits come first, nothing that is needed
             // can be evicted: the estimate is the cost.
-            // (Of polygons the estimate knows no more than the faces at the vertex.)
+            // (With polygons the estimate sees only the faces at this vertex, so it is never exact.)
             let is_exact =
-                !POLYGONS && vertex.white_corners == 0 || !KEEP_CORNERS && vertex.live == 1;
+                (!POLYGONS && vertex.white_corners == 0) || (!KEEP_CORNERS && vertex.live == 1);
             if is_exact || confirmed >> best & 1 != 0 || vertex.live > HUB {
                 return Some(focus);
             }
@@ -238,8 +209,8 @@ impl<'a> Growth<'a> {
             }
             cost[best] = exact;
             confirmed |= 1 << best;
-            let last_run = confirmed.count_ones() == MAX_RUNS;
-            let rank = |i: usize| (last_run && confirmed >> i & 1 == 0, cost[i]);
+            let is_last = confirmed.count_ones() == MAX_TENTATIVE;
+            let rank = |i: usize| (is_last && confirmed >> i & 1 == 0, cost[i]);
             best = (0..count).min_by_key(|&i| rank(i)).unwrap_or(0);
         }
     }
@@ -252,8 +223,8 @@ impl<'a> Growth<'a> {
     ) -> i64 {
         self.gather(focus);
         let (size, mut clock) = (self.size, self.clock);
-        let (vertices, undo) = (&mut self.live.vertices[..], &mut self.run.undo);
-        let mut run = |face: u32| {
+        let (vertices, undo) = (&mut self.live.vertices[..], &mut self.tentative.undo);
+        let mut draw = |face: u32| {
             let corners = self.live.faces[face as usize];
             let missing = corners.map(|corner| {
                 let entered = vertices[corner as usize].entered;
@@ -268,24 +239,24 @@ impl<'a> Growth<'a> {
                 }
             }
         };
-        let gathered = &self.run.faces[..self.run.len];
+        let gathered = &self.tentative.faces[..self.tentative.len];
         if POLYGONS {
-            // Its faces at this vertex stand side by side. A run beyond a hub's is cut short: its
-            // cost so far is more than another's.
-            let mut last = u32::MAX;
+            // Its faces at this vertex stand next to each other. A run beyond a hub's is cut short:
+            // its cost so far is more than another's.
+            let mut last = [u32::MAX; 2];
             let mut left = HUB;
             for &face in gathered {
-                let polygon = self.polygons.of_face[face as usize];
+                let polygon = self.polygons[face as usize];
                 if std::mem::replace(&mut last, polygon) != polygon {
-                    let faces = self.polygons.faces(face);
-                    let taken = index32(faces.len()).min(left);
-                    (faces.start..faces.start + taken).for_each(&mut run);
+                    let [start, end] = polygon;
+                    let taken = (end - start).min(left);
+                    (start..start + taken).for_each(&mut draw);
                     left -= taken;
                 }
             }
         } else {
             for &face in gathered {
-                run(face);
+                draw(face);
             }
         }
         let vertex = vertices[focus as usize];

@@ -45,13 +45,16 @@ mod fast_controllable;
 mod fast_fifo;
 #[cfg(test)]
 mod oracle;
+mod task;
 
 use crate::cache::{CacheEvent, CacheModel, MIN_CACHE_SIZE, Schedule};
-use crate::limits::index32;
-use crate::mesh::Mesh;
-use crate::order::check_starts;
+use crate::faces::Faces;
+use crate::index::index32;
 use crate::order::greedy::Costs;
+use crate::order::polygons::{check_starts, polygon_of_each_face};
 use crate::permutation::{FaceOrder, Permutation};
+use faithful::Evictions;
+use task::Task;
 
 /// How closely [`KCacheReorder`] follows the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -116,7 +119,7 @@ impl Default for KCacheReorder {
 }
 
 impl KCacheReorder {
-    /// The order in which to draw the faces of `mesh`.
+    /// The order in which to draw the faces.
     ///
     /// Weights are rounded to thousandths and clamped to ±1024.
     ///
@@ -128,12 +131,12 @@ impl KCacheReorder {
     /// beside the result.
     /// Faithful: O(K · vertices) tentative runs.
     #[must_use]
-    pub fn face_order(&self, mesh: &Mesh) -> FaceOrder {
-        self.ordered(mesh, |_| {})
+    pub fn face_order<'a>(&self, faces: impl Into<Faces<'a>>) -> FaceOrder {
+        self.ordered(faces.into(), |_| {})
     }
 
-    /// The order in which to draw the faces of `mesh` so that those of a polygon stay together, one
-    /// after the other as they are; faces `starts[i]..starts[i + 1]` are polygon `i`.
+    /// The order in which to draw the faces so that those of a polygon stay together, one after the
+    /// other as they are; faces `starts[i]..starts[i + 1]` are polygon `i`.
     ///
     /// The fast mode for a FIFO cache draws polygons as wholes; otherwise a polygon goes where the
     /// first of its faces would go. Corners are never turned.
@@ -143,7 +146,7 @@ impl KCacheReorder {
     /// faces.
     ///
     /// # Complexity
-    /// As [`face_order`](Self::face_order), with 4 bytes more a face.
+    /// As [`face_order`](Self::face_order), with 8 bytes more a face.
     ///
     /// ```
     /// use meshweft::{CacheModel, Mesh, cache, order::KCacheReorder};
@@ -160,25 +163,16 @@ impl KCacheReorder {
     /// # Ok::<(), meshweft::MeshError>(())
     /// ```
     #[must_use]
-    pub fn polygon_order(&self, mesh: &Mesh, starts: &[u32]) -> FaceOrder {
-        check_starts(starts, mesh);
+    pub fn polygon_order<'a>(&self, faces: impl Into<Faces<'a>>, starts: &[u32]) -> FaceOrder {
+        let faces = faces.into();
+        check_starts(starts, faces.len());
         let (CacheModel::Fifo { size }, Mode::Fast) = (self.cache, self.mode) else {
-            return whole_polygons(&self.face_order(mesh), starts);
+            return whole_polygons(&self.face_order(faces), starts);
         };
-        self.check_focus(mesh);
-        let costs = Costs::new(self.k1, self.k2, self.k3, size);
-        let size = usable_size(size, mesh);
-        let (faces, vertex_count) = (mesh.faces(), mesh.vertex_count());
-        fast_fifo::polygon_order(faces, starts, vertex_count, size, &costs, self.first_focus)
-    }
-
-    fn check_focus(&self, mesh: &Mesh) {
-        if let Some(focus) = self.first_focus {
-            assert!(
-                (focus as usize) < mesh.vertex_count(),
-                "the first focus {focus} names no vertex"
-            );
-        }
+        fast_fifo::polygon_order(
+            &self.task(faces, size, self.k3),
+            &polygon_of_each_face(starts),
+        )
     }
 
     /// The order and, for a controllable cache, the schedule of pushes and pops that goes with it.
@@ -188,48 +182,46 @@ impl KCacheReorder {
     /// # Panics
     /// As [`face_order`](Self::face_order).
     #[must_use]
-    pub fn schedule(&self, mesh: &Mesh) -> (FaceOrder, Schedule) {
+    pub fn schedule<'a>(&self, faces: impl Into<Faces<'a>>) -> (FaceOrder, Schedule) {
         let mut events = Vec::new();
-        let order = self.ordered(mesh, |event| events.push(event));
+        let order = self.ordered(faces.into(), |event| events.push(event));
         (order, Schedule { events })
     }
 
-    fn ordered(&self, mesh: &Mesh, record: impl FnMut(CacheEvent)) -> FaceOrder {
-        let (controllable, size) = match self.cache {
-            CacheModel::Fifo { size } => (false, size),
-            CacheModel::Controllable { size } => (true, size),
+    fn ordered(&self, faces: Faces<'_>, record: impl FnMut(CacheEvent)) -> FaceOrder {
+        let (evictions, size) = match self.cache {
+            CacheModel::Fifo { size } => (Evictions::Fifo, size),
+            CacheModel::Controllable { size } => (Evictions::Controllable, size),
             other => panic!("K-Cache-Reorder orders for fifo:K and controllable:K, not {other}"),
         };
-        self.check_focus(mesh);
-        let k3 = if controllable { 0.0 } else { self.k3 };
-        let costs = Costs::new(self.k1, self.k2, k3, size);
-        let (faces, vertex_count) = (mesh.faces(), mesh.vertex_count());
-        let size = usable_size(size, mesh);
-        let first = self.first_focus;
-        match (self.mode, controllable) {
-            (Mode::Faithful, _) => faithful::face_order(
-                faces,
-                vertex_count,
-                size,
-                controllable,
-                &costs,
-                first,
-                record,
-            ),
-            (Mode::Fast, true) => {
-                fast_controllable::face_order(faces, vertex_count, size, &costs, first, record)
-            }
-            (Mode::Fast, false) => {
-                let keep = self.keep_corners;
-                fast_fifo::face_order(faces, vertex_count, size, &costs, keep, first)
-            }
+        let k3 = match evictions {
+            Evictions::Fifo => self.k3,
+            Evictions::Controllable => 0.0,
+        };
+        let task = self.task(faces, size, k3);
+        match (self.mode, evictions) {
+            (Mode::Faithful, evictions) => faithful::face_order(&task, evictions, record),
+            (Mode::Fast, Evictions::Controllable) => fast_controllable::face_order(&task, record),
+            (Mode::Fast, Evictions::Fifo) => fast_fifo::face_order(&task, self.keep_corners),
         }
     }
-}
 
-/// In a cache that holds all vertices none ever leaves: a larger one is no different.
-fn usable_size(size: u32, mesh: &Mesh) -> u32 {
-    size.min(index32(mesh.vertex_count())).max(MIN_CACHE_SIZE)
+    fn task<'a>(&self, faces: Faces<'a>, size: u32, k3: f64) -> Task<'a> {
+        let vertex_count = index32(faces.vertex_count());
+        if let Some(focus) = self.first_focus {
+            assert!(
+                focus < vertex_count,
+                "the first focus {focus} names no vertex"
+            );
+        }
+        Task {
+            faces,
+            costs: Costs::new(self.k1, self.k2, k3, size),
+            // In a cache that holds all vertices none ever leaves: a larger one is no different.
+            size: size.min(vertex_count).max(MIN_CACHE_SIZE),
+            first_focus: self.first_focus,
+        }
+    }
 }
 
 /// Each polygon where the first of its faces is in `order`.

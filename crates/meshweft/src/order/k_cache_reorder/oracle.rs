@@ -1,11 +1,12 @@
 //! The fast mode against its definition, run by brute force.
 
-use super::fast_fifo::{MAX_RUNS, candidate_count};
-use super::{Costs, KCacheReorder};
+use super::KCacheReorder;
+use super::fast_fifo::{MAX_TENTATIVE, candidate_count};
 use crate::cache::CacheModel;
-use crate::limits::index32;
+use crate::index::index32;
 use crate::mesh::Mesh;
 use crate::order::baselines::random;
+use crate::order::greedy::Costs;
 
 /// A FIFO cache as a list, the oldest first.
 #[derive(Clone)]
@@ -113,7 +114,7 @@ fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u
             .collect();
         by_estimate.sort_unstable();
         let mut cheapest: Option<(i64, usize, u32)> = None;
-        for &(estimate, place, v) in by_estimate.iter().take(MAX_RUNS as usize) {
+        for &(estimate, place, v) in by_estimate.iter().take(MAX_TENTATIVE as usize) {
             if cheapest.is_none_or(|c| (estimate, place) < (c.0, c.1)) {
                 // An estimate is a lower bound on a surface; elsewhere it may be above the cost.
                 let run = (cost(v).max(estimate), place, v);

@@ -1,64 +1,79 @@
 //! Large meshes in parts, on as many threads as there are.
 
 use std::sync::atomic::AtomicUsize;
-use std::time::Instant;
 
 use super::mask::Mask;
-use super::preset::{Preset, preset};
-use super::rollout::{Budget, Rollouts};
+use super::preset::preset;
+use super::rollout::{Caller, Rollouts};
+use super::settings::Settings;
 use super::slabs;
 use super::state::{CacheLimits, State};
-use super::{Effort, Optimizer};
-use crate::limits::index32;
-use crate::mesh::Mesh;
+use crate::faces::Faces;
+use crate::index::index32;
+use crate::order::polygons::polygon_of_each_face;
+use crate::order::target::{Effort, Target};
 use crate::parallel;
 use crate::permutation::{FaceOrder, Permutation};
+use crate::progress::{Budget, Progress};
 
 /// Faces of a part, at least. A part starts with a cold cache and transforms the vertices at its
 /// border once more than the whole would: at this size that costs less than a hundredth.
 const PART: usize = 1 << 17;
 
-/// Searches part by part.
-pub(super) fn face_order(mesh: &Mesh, starts: Option<&[u32]>, optimizer: &Optimizer) -> FaceOrder {
-    let face_count = mesh.face_count();
-    let polygons = starts.map(polygons);
-    let (order, ends) = match part_count(face_count) {
-        1 => (Permutation::identity(face_count), vec![face_count]),
-        parts => slabs::compact_parts(mesh, parts, polygons.as_deref()),
-    };
-    let effort = match optimizer.time_budget {
-        Some(_) => Effort::Max,
-        None => optimizer.effort,
-    };
-    let preset = preset(optimizer.target, effort);
-    let budget = optimizer.time_budget.map(|time| Budget {
-        start: Instant::now(),
-        time,
-        faces: face_count,
-        done: AtomicUsize::new(0),
-    });
-    let mut numbers = vec![u32::MAX; mesh.vertex_count()];
-    let mut start = 0;
-    let parts = ends.iter().map(|&end| {
-        let members = &order.new_to_old()[start..end];
-        let faces = members.iter().map(|&face| mesh.faces()[face as usize]);
-        let (faces, vertex_count) = renumbered(faces, &mut numbers);
-        let part = Part {
-            faces,
-            vertex_count,
-            polygons: polygons
-                .as_ref()
-                .map_or(Vec::new(), |polygons| polygons_of(members, polygons)),
-            keep_corners: optimizer.keep_corners || starts.is_some(),
-            seed: optimizer.seed ^ (start as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15),
-            preset: &preset,
-            budget: budget.as_ref(),
+/// A search for an order, and who hears of it.
+pub(in crate::order) struct Search<'a> {
+    pub(in crate::order) target: Target,
+    pub(in crate::order) effort: Effort,
+    pub(in crate::order) seed: u64,
+    pub(in crate::order) keep_corners: bool,
+    pub(in crate::order) budget: Budget,
+    pub(in crate::order) progress: &'a dyn Progress,
+}
+
+impl Search<'_> {
+    /// Searches part by part; polygons that begin at `starts` stay whole.
+    pub(in crate::order) fn face_order(
+        &self,
+        faces: Faces<'_>,
+        starts: Option<&[u32]>,
+    ) -> FaceOrder {
+        let face_count = faces.len();
+        let polygons = starts.map(polygon_of_each_face);
+        let (order, ends) = match part_count(face_count) {
+            1 => (Permutation::identity(face_count), vec![face_count]),
+            parts => slabs::compact_parts(faces, parts, polygons.as_deref()),
         };
-        start = end;
-        part
-    });
-    let ordered = parallel::map(parts.collect(), |part: Part<'_>| part.search());
-    FaceOrder::from(order).then(&joined(ordered, face_count))
+
+        let settings = preset(self.target, self.effort);
+        let caller = Caller {
+            progress: self.progress,
+            faces: face_count,
+            drawn: AtomicUsize::new(0),
+        };
+        let mut numbers = vec![u32::MAX; faces.vertex_count()];
+        let mut start = 0;
+        let parts = ends.iter().map(|&end| {
+            let members = &order.new_to_old()[start..end];
+            let corners = members.iter().map(|&face| faces.corners()[face as usize]);
+            let (faces, vertex_count) = renumbered(corners, &mut numbers);
+            let part = Part {
+                faces,
+                vertex_count,
+                polygons: polygons
+                    .as_ref()
+                    .map_or(Vec::new(), |polygons| polygons_of(members, polygons)),
+                keep_corners: self.keep_corners || starts.is_some(),
+                seed: self.seed ^ (start as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15),
+                settings: &settings,
+                steps: self.budget.share(end - start, face_count).steps(),
+                caller: &caller,
+            };
+            start = end;
+            part
+        });
+        let ordered = parallel::map(parts.collect(), |part: Part<'_>| part.search());
+        FaceOrder::from(order).then(&joined(ordered, face_count))
+    }
 }
 
 /// In how many parts to cut so many faces: a power of two, which as many threads share evenly.
@@ -99,13 +114,6 @@ fn joined(parts: Vec<Found>, face_count: usize) -> FaceOrder {
     FaceOrder::new(permutation, rotations).expect("one rotation below 3 a face")
 }
 
-/// For each face, where its polygon begins and ends.
-fn polygons(starts: &[u32]) -> Vec<[u32; 2]> {
-    let polygon =
-        |ends: &[u32]| std::iter::repeat_n([ends[0], ends[1]], (ends[1] - ends[0]) as usize);
-    starts.windows(2).flat_map(polygon).collect()
-}
-
 /// Where the polygon of each member begins and ends among the members.
 fn polygons_of(members: &[u32], polygons: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let place = |(i, &face): (u32, &u32)| {
@@ -123,8 +131,10 @@ struct Part<'a> {
     polygons: Vec<[u32; 2]>,
     keep_corners: bool,
     seed: u64,
-    preset: &'a Preset,
-    budget: Option<&'a Budget>,
+    settings: &'a Settings,
+    /// How many steps may look ahead.
+    steps: u64,
+    caller: &'a Caller<'a>,
 }
 
 /// The order of a part.
@@ -136,8 +146,8 @@ struct Found {
 
 impl Part<'_> {
     fn search(&self) -> Found {
-        let (first, second) = (self.preset.first, self.preset.second);
-        let is_short = self.preset.window <= u64::SPAN;
+        let (first, second) = (self.settings.first, self.settings.second);
+        let is_short = self.settings.window <= u64::SPAN;
         match (second, is_short) {
             (None, true) => self.run::<u64, 1>([first]),
             (None, false) => self.run::<u128, 1>([first]),
@@ -148,11 +158,11 @@ impl Part<'_> {
 
     fn run<M: Mask, const CACHES: usize>(&self, limits: [CacheLimits; CACHES]) -> Found {
         let mut state = State::<M, CACHES>::new(&self.faces, self.vertex_count, limits);
-        state.window = self.preset.window;
-        state.windows = self.preset.windows;
+        state.window = self.settings.window;
+        state.windows = self.settings.windows;
         state.keep_corners = self.keep_corners;
         state.polygons = &self.polygons;
-        let state = Rollouts::new(state, self.preset, self.seed).run(self.budget);
+        let state = Rollouts::new(state, self.settings, self.seed).run(self.steps, self.caller);
         let left_over = match self.polygons.is_empty() {
             true => state.faces_in_batch(),
             false => 0,
@@ -192,7 +202,6 @@ fn renumbered(
 mod tests {
     use super::*;
     use crate::cache::{self, CacheModel};
-    use crate::order::{Effort, Target};
 
     /// A square grid of `side` × `side` squares, row by row.
     fn grid(side: u32) -> Vec<[u32; 3]> {
@@ -207,7 +216,12 @@ mod tests {
     #[test]
     fn batches_stay_aligned_across_parts() {
         for model in [CacheModel::NVIDIA, CacheModel::AMD] {
-            let preset = preset(Target::Cache(model), Effort::Fast);
+            let settings = preset(Target::Cache(model), Effort::Fast);
+            let caller = Caller {
+                progress: &(),
+                faces: 0,
+                drawn: AtomicUsize::new(0),
+            };
             let (mut parts, mut faces, mut separately) = (Vec::new(), Vec::new(), 0);
             for side in [9, 14, 23] {
                 let part = Part {
@@ -216,8 +230,9 @@ mod tests {
                     polygons: Vec::new(),
                     keep_corners: false,
                     seed: 0,
-                    preset: &preset,
-                    budget: None,
+                    settings: &settings,
+                    steps: u64::MAX,
+                    caller: &caller,
                 };
                 let found = part.search();
                 let kept = found.order.len() - found.left_over;
@@ -243,8 +258,8 @@ mod tests {
     fn parts_are_compact_and_complete() {
         let faces = grid(120);
         let shuffled = crate::order::baselines::random(faces.len(), 1).apply(&faces);
-        let mesh = Mesh::connectivity_only(121 * 121, shuffled.clone()).unwrap();
-        let (order, ends) = slabs::compact_parts(&mesh, 7, None);
+        let (order, ends) =
+            slabs::compact_parts(Faces::new(&shuffled, 121 * 121).unwrap(), 7, None);
         assert_eq!(ends.len(), 7);
         let mut start = 0;
         for &end in &ends {

@@ -1,37 +1,22 @@
-//! Which caches each target models, and every weight that was tuned.
+//! The settings of each target and effort, and every weight that was tuned.
 //!
 //! Tuned by random search on meshes that the README's tables do not have: cow, spot, a 20,000-face
 //! horse, small versions of dragon and bunny, lion_statue, maneki_neko, mannequin, teapot_65k.
 
-use super::rollout::{Horizon, Score, Weights};
+use super::settings::{Horizon, Score, Settings, Weights};
 use super::state::{CacheLimits, WINDOWS};
-use super::{Effort, Target};
 use crate::cache::{BatchModel, CacheModel};
+use crate::order::target::{Effort, Target};
 
 /// The largest cache that is modelled.
 pub(super) const MAX_SIZE: u32 = 128;
 
-/// All that a search is told.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Preset {
-    /// The cache that corners are turned for and candidates come from.
-    pub(super) first: CacheLimits,
-    /// One beside it.
-    pub(super) second: Option<CacheLimits>,
-    /// How many of the last pushes into the first cache are candidates.
-    pub(super) window: u32,
-    pub(super) windows: [u32; WINDOWS],
-    pub(super) weights: Weights,
-    pub(super) score: Score,
-    pub(super) horizon: Horizon,
-}
-
 /// The FIFO cache to order for where the least recently used vertex leaves first.
-pub(super) fn lru_as_fifo(size: u32) -> u32 {
+pub(in crate::order) fn lru_as_fifo(size: u32) -> u32 {
     (size / 8 * 5 + size % 8 * 5 / 8).max(3)
 }
 
-pub(super) fn preset(target: Target, effort: Effort) -> Preset {
+pub(super) fn preset(target: Target, effort: Effort) -> Settings {
     match target {
         Target::Universal => universal(effort),
         Target::Cache(model) => match model {
@@ -73,12 +58,12 @@ fn horizon(effort: Effort, steps: u32, candidates: u32) -> Horizon {
 
 const NO_WINDOWS: [u32; WINDOWS] = [32, 64, 128];
 
-fn fifo(size: u32, effort: Effort) -> Preset {
+fn fifo(size: u32, effort: Effort) -> Settings {
     let size = size.clamp(3, MAX_SIZE);
     let is_small = size < 24;
     let age = fixed(1.3) / i64::from(size);
     let steps = (40 + size.saturating_sub(12) * 11 / 2).min(200);
-    Preset {
+    Settings {
         first: CacheLimits::fifo(size),
         second: None,
         window: size,
@@ -118,9 +103,9 @@ fn fifo(size: u32, effort: Effort) -> Preset {
     }
 }
 
-fn controllable(size: u32, effort: Effort) -> Preset {
+fn controllable(size: u32, effort: Effort) -> Settings {
     let size = size.clamp(3, MAX_SIZE / 2);
-    Preset {
+    Settings {
         first: CacheLimits {
             is_controllable: true,
             ..CacheLimits::fifo(size)
@@ -139,7 +124,7 @@ fn controllable(size: u32, effort: Effort) -> Preset {
     }
 }
 
-fn batches(batch: BatchModel, effort: Effort) -> Preset {
+fn batches(batch: BatchModel, effort: Effort) -> Settings {
     let unlimited = |limit: u32| if limit == 0 { u32::MAX } else { limit };
     let limits = CacheLimits {
         batch_faces: unlimited(batch.batch_faces()),
@@ -152,7 +137,7 @@ fn batches(batch: BatchModel, effort: Effort) -> Preset {
         .min(limits.batch_faces.saturating_mul(3));
     if limits.size < most_pushes {
         // What leaves during a batch matters more than what its end takes.
-        return Preset {
+        return Settings {
             first: limits,
             score: Score {
                 face: fixed(0.2),
@@ -164,7 +149,7 @@ fn batches(batch: BatchModel, effort: Effort) -> Preset {
     }
     let is_fast = effort == Effort::Fast;
     let horizon = horizon(effort, 50, 60);
-    Preset {
+    Settings {
         first: limits,
         window: if is_fast { 48 } else { 32 },
         weights: Weights {
@@ -196,7 +181,7 @@ fn batches(batch: BatchModel, effort: Effort) -> Preset {
 /// the condition that no cache or GPU loses to meshoptimizer's order. Large caches, of 64 and of
 /// Intel's 128 entries, are where that is hard: they ask for compact growth, the small ones for long
 /// strips.
-fn universal(effort: Effort) -> Preset {
+fn universal(effort: Effort) -> Settings {
     let (window, windows, weights, score, horizon) = match effort {
         Effort::Fast => (
             14,
@@ -253,7 +238,7 @@ fn universal(effort: Effort) -> Preset {
             },
         ),
     };
-    Preset {
+    Settings {
         first: CacheLimits::fifo(10),
         second: Some(CacheLimits {
             batch_faces: 32,

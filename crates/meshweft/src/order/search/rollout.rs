@@ -1,80 +1,56 @@
-//! The loop: run some continuations, keep the best one's beginning.
+//! The loop: run some continuations, commit the best one's beginning.
 
 use std::hint::select_unpredictable;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 
 use super::mask::Mask;
-use super::preset::Preset;
-use super::state::{State, WINDOWS};
+use super::settings::Settings;
+use super::state::State;
 use crate::order::greedy::HUB;
+use crate::progress::Progress;
 
-/// Weights of a candidate's cost, in 1024ths of a push.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Weights {
-    /// A vertex that is missing from each cache.
-    pub(super) missing: [i64; 2],
-    /// A face drawn; the more, the cheaper.
-    pub(super) live: i64,
-    /// A push since it entered the first cache; the more, the cheaper.
-    pub(super) age: i64,
-    /// Leaving the first cache before it is finished.
-    pub(super) late: i64,
-    /// Having left the first cache.
-    pub(super) outside: i64,
-    /// A push since it entered the first cache, if it has left it.
-    pub(super) outside_age: i64,
-}
-
-/// What a continuation is judged by, in 1024ths of an eviction; less is better.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Score {
-    /// A vertex that leaves each cache unfinished.
-    pub(super) exits: [i64; 2],
-    /// A vertex that leaves a longer window unfinished.
-    pub(super) windows: [i64; WINDOWS],
-    /// A face drawn.
-    pub(super) face: i64,
-    /// A push since each vertex entered that is a candidate in the end.
-    pub(super) age: i64,
-}
-
-/// How far and how often to look ahead.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Horizon {
-    /// Continuations.
-    pub(super) runs: usize,
-    /// Vertices finished in each.
-    pub(super) steps: usize,
-    /// Vertices of the best that are finished for good.
-    pub(super) commit: usize,
-    /// Most candidates looked at, the oldest first.
-    pub(super) candidates: u32,
-    /// Span of the noise on a candidate's cost, in 1024ths of a push.
-    pub(super) noise: i64,
-    /// A run that is this much behind the best after `patience` steps or more is given up.
-    pub(super) margin: i64,
-    pub(super) patience: usize,
-}
-
-/// The time that a search may take, shared by its parts.
-pub(super) struct Budget {
-    pub(super) start: Instant,
-    pub(super) time: Duration,
+/// What the caller of a search hears of it and says to it, for all parts together.
+pub(super) struct Caller<'a> {
+    pub(super) progress: &'a dyn Progress,
+    /// Faces of all parts, and how many of them are drawn.
     pub(super) faces: usize,
-    pub(super) done: AtomicUsize,
+    pub(super) drawn: AtomicUsize,
 }
 
-impl Budget {
-    /// Counts faces as done, and says how many continuations there is time for from now on.
-    fn runs(&self, newly_done: usize, runs: usize) -> usize {
-        let done = self.done.fetch_add(newly_done, Ordering::Relaxed) + newly_done;
-        let share_of_faces = done as f64 / self.faces as f64;
-        let share_of_time = self.start.elapsed().as_secs_f64() / self.time.as_secs_f64();
-        if share_of_time > share_of_faces {
-            (runs * 3 / 4).max(1)
-        } else {
-            (runs + 1 + runs / 8).min(4096)
+/// How often the caller hears of an untimed search, in faces: often enough to be stopped at once, too
+/// seldom to cost anything.
+const HEARD_EVERY: usize = 1 << 10;
+
+/// How a part goes on.
+#[derive(Debug, Clone, Copy)]
+struct Pace {
+    /// Continuations that are tried at each step.
+    runs: usize,
+    /// How many steps are left.
+    steps: u64,
+    /// Whether the time that is over decides on `runs`.
+    is_timed: bool,
+    /// How many faces were drawn when the caller heard of it last.
+    heard: usize,
+}
+
+impl Pace {
+    /// Tells the caller that `drawn` faces of the part are drawn, and does as it says.
+    fn keep(&mut self, drawn: usize, caller: &Caller<'_>) {
+        if drawn - self.heard < HEARD_EVERY && !self.is_timed {
+            return;
+        }
+        let newly_drawn = drawn - self.heard;
+        self.heard = drawn;
+        let drawn = caller.drawn.fetch_add(newly_drawn, Ordering::Relaxed) + newly_drawn;
+        let share_of_faces = drawn as f64 / caller.faces.max(1) as f64;
+        if caller.progress.report(share_of_faces).is_break() {
+            self.steps = 0;
+        } else if let Some(share_of_time) = caller.progress.time_spent() {
+            self.runs = match share_of_time > share_of_faces {
+                true => (self.runs * 3 / 4).max(1),
+                false => (self.runs + 1 + self.runs / 8).min(4096),
+            };
         }
     }
 }
@@ -86,7 +62,7 @@ const MAX_CANDIDATES: usize = 128;
 
 pub(super) struct Rollouts<'a, M, const CACHES: usize> {
     state: State<'a, M, CACHES>,
-    preset: &'a Preset,
+    settings: &'a Settings,
     random: u64,
     noises: Vec<i64>,
     /// No vertex before this one is untouched.
@@ -95,54 +71,55 @@ pub(super) struct Rollouts<'a, M, const CACHES: usize> {
 
 /// A continuation: whose faces it draws, and its score after each of them.
 #[derive(Default)]
-struct Run {
+struct Rollout {
     path: Vec<u32>,
     marks: Vec<i64>,
 }
 
 impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
-    pub(super) fn new(state: State<'a, M, CACHES>, preset: &'a Preset, seed: u64) -> Self {
+    pub(super) fn new(state: State<'a, M, CACHES>, settings: &'a Settings, seed: u64) -> Self {
         let mut random = seed.wrapping_add(1);
         // Many meshes are tiny: no more lots for them than they can draw.
         let lots = (8 * state.face_count()).clamp(1, NOISES);
         let noises = (0..lots + MAX_CANDIDATES).map(|_| {
             random = next_random(random);
-            ((random >> 32).cast_signed() * preset.horizon.noise) >> 32
+            ((random >> 32).cast_signed() * settings.horizon.noise) >> 32
         });
         Self {
             noises: noises.collect(),
             state,
-            preset,
+            settings,
             random,
             untouched: 0,
         }
     }
 
-    /// Draws all faces.
-    pub(super) fn run(mut self, budget: Option<&Budget>) -> State<'a, M, CACHES> {
-        let horizon = self.preset.horizon;
-        let (mut winner, mut spare) = (Run::default(), Run::default());
-        let mut runs = horizon.runs;
-        let mut counted = 0;
+    /// Draws all faces, in at most about `steps` steps that look ahead.
+    pub(super) fn run(mut self, steps: u64, caller: &Caller<'_>) -> State<'a, M, CACHES> {
+        let horizon = self.settings.horizon;
+        let (mut winner, mut spare) = (Rollout::default(), Rollout::default());
+        let mut pace = Pace {
+            runs: horizon.runs,
+            steps,
+            is_timed: caller.progress.time_spent().is_some(),
+            heard: 0,
+        };
         loop {
-            if let Some(budget) = budget {
-                let done = self.state.new_to_old.len();
-                runs = budget.runs(done - counted, runs);
-                counted = done;
-            }
+            pace.keep(self.state.new_to_old.len(), caller);
             if !self.state.has_candidates() {
                 winner.path.clear();
                 let Some(focus) = self.after_dead_end() else {
                     return self.state;
                 };
                 self.state.draw::<false>(focus);
-            } else if runs == 1 {
+            } else if pace.runs == 1 || pace.steps == 0 {
                 winner.path.clear();
                 if let Some(focus) = self.cheapest::<false>() {
                     self.state.draw::<false>(focus);
                 }
             } else {
-                let is_drawn = self.best_of(runs, &mut winner, &mut spare);
+                pace.steps -= 1;
+                let is_drawn = self.best_of(pace.runs, &mut winner, &mut spare);
                 let commit = horizon.commit.clamp(1, winner.path.len());
                 for focus in winner.path.drain(..commit) {
                     if !is_drawn {
@@ -156,8 +133,8 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
     /// Runs continuations from here; `winner`, which holds what is left of the last winner, becomes
     /// the best of them. Whether it is drawn already: the last one is not taken back if it wins and
     /// is to be drawn as a whole.
-    fn best_of(&mut self, runs: usize, winner: &mut Run, spare: &mut Run) -> bool {
-        let horizon = self.preset.horizon;
+    fn best_of(&mut self, runs: usize, winner: &mut Rollout, spare: &mut Rollout) -> bool {
+        let horizon = self.settings.horizon;
         self.state.reset_exits();
         let saved = self.state.save();
         let mut best = i64::MAX;
@@ -210,7 +187,7 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
     /// The score since `drawn` faces were drawn.
     #[inline]
     fn mark(&self, drawn: usize) -> i64 {
-        let score = &self.preset.score;
+        let score = &self.settings.score;
         let faces = self.state.new_to_old.len() - drawn;
         let mut mark = -score.face * faces as i64;
         for (cache, weight) in self.state.caches.iter().zip(score.exits) {
@@ -227,11 +204,11 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
     /// What the candidates that are left add to the score: the older, the sooner they are evicted.
     fn aging(&self) -> i64 {
         let mut ages = 0;
-        if self.preset.score.age != 0 {
+        if self.settings.score.age != 0 {
             self.state
                 .candidates(u32::MAX, |_, candidate| ages += i64::from(candidate.age));
         }
-        ages * self.preset.score.age
+        ages * self.settings.score.age
     }
 
     /// Where to go on when no candidate is left: the vertex that was the last to leave unfinished,
@@ -254,10 +231,10 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
         }
         let offset = (self.random >> 40) as usize % (self.noises.len() - MAX_CANDIDATES);
         let noises = &self.noises[offset..offset + MAX_CANDIDATES];
-        let (weights, size) = (&self.preset.weights, self.preset.first.size);
+        let (weights, size) = (&self.settings.weights, self.settings.first.size);
         let mut best = 0;
         let mut least = i64::MAX;
-        let most = self.preset.horizon.candidates;
+        let most = self.settings.horizon.candidates;
         let count = self.state.candidates(most, |i, candidate| {
             let [missing, beside] = candidate.missing.map(i64::from);
             let mut cost = weights.missing[0] * missing - weights.live * i64::from(candidate.live);

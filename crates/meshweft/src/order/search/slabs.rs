@@ -1,9 +1,9 @@
 //! Compact parts of a mesh, by connectivity alone.
 
-use crate::adjacency::Adjacency;
-use crate::limits::index32;
-use crate::mesh::Mesh;
+use crate::faces::Faces;
+use crate::index::index32;
 use crate::permutation::Permutation;
+use crate::topology::{Adjacency, rows};
 
 /// The faces in parts of like size, and where each part ends.
 ///
@@ -13,17 +13,16 @@ use crate::permutation::Permutation;
 ///
 /// Time O(faces), space 36 bytes a face.
 pub(super) fn compact_parts(
-    mesh: &Mesh,
+    faces: Faces<'_>,
     parts: usize,
     polygons: Option<&[[u32; 2]]>,
 ) -> (Permutation, Vec<usize>) {
-    let (faces, vertex_count) = (mesh.faces(), mesh.vertex_count());
     let mut slicing = Slicing {
-        faces,
-        adjacency: Adjacency::new(faces, vertex_count),
+        faces: faces.corners(),
+        adjacency: Adjacency::new(faces),
         polygons,
         part: vec![0; faces.len()],
-        fans: vec![0; vertex_count],
+        fans: vec![0; faces.vertex_count()],
         queue: Vec::new(),
         parts: 1,
     };
@@ -83,23 +82,14 @@ impl Slicing<'_> {
                 self.part[face as usize] = self.part[first as usize];
             }
         }
+
         // By counting, so that what was near in memory stays so.
-        let slice_of = |face: u32| (self.part[face as usize] - first_part) as usize;
-        let mut next = vec![0; shares.len() + 1];
-        for &face in &*members {
-            next[slice_of(face) + 1] += 1;
-        }
-        for i in 1..next.len() {
-            next[i] += next[i - 1];
-        }
-        let ends = next[1..].to_vec();
+        let slice_of = |face: u32| self.part[face as usize] - first_part;
+        let mut starts = rows::starts(shares.len(), members.iter().map(|&face| slice_of(face)));
         self.queue.copy_from_slice(members);
-        for &face in &self.queue {
-            let slot = &mut next[slice_of(face)];
-            members[*slot] = face;
-            *slot += 1;
-        }
-        ends
+        let items = self.queue.iter().map(|&face| (slice_of(face), face));
+        rows::place(&mut starts, items, members);
+        starts[1..].iter().map(|&end| end as usize).collect()
     }
 
     /// Lists the members by their distance from the first, and piece by piece what does not hang

@@ -1,4 +1,4 @@
-//! The state of a greedy traversal that can be taken back: the faces left, caches side by side.
+//! Traversal state with undo: undrawn faces, and the caches being modelled.
 //!
 //! An attempt remembers each vertex that it changes, once; taking it back restores these and a few
 //! numbers, whatever the caches did. Who is a candidate is a bit a push, so the oldest are found
@@ -12,8 +12,9 @@ mod oracle;
 use std::ops::Range;
 
 use super::mask::Mask;
-use crate::limits::index32;
-use crate::order::greedy::HUB;
+use crate::index::index32;
+use crate::order::greedy::{HUB, least_neighbours};
+use crate::topology::rows;
 use caches::Cache;
 pub(super) use caches::CacheLimits;
 
@@ -21,7 +22,7 @@ pub(super) use caches::CacheLimits;
 pub(super) const WINDOWS: usize = 3;
 
 #[derive(Clone, Copy)]
-struct Vertex<const CACHES: usize> {
+struct SearchVertex<const CACHES: usize> {
     /// The number of its last push into each cache; 0 before the first.
     entered: [u32; CACHES],
     /// Start of its row of faces; the next vertex's start ends it.
@@ -35,24 +36,18 @@ struct Vertex<const CACHES: usize> {
     attempt: u32,
 }
 
-impl<const CACHES: usize> Vertex<CACHES> {
-    /// How many neighbours are missing from a cache at least, if its fan is a surface's.
-    ///
-    /// A neighbour is a corner of one live face, or of two if it is inside the fan. One face being
-    /// drawn, the fan is open: `n` live faces share at most `n − 1` neighbours.
+impl<const CACHES: usize> SearchVertex<CACHES> {
+    /// How many neighbours are missing from a cache at least; see [`least_neighbours`].
     #[inline]
     fn missing_neighbours(&self, cache: usize) -> u32 {
-        let corners = self.missing >> (16 * cache) & 0xffff;
-        corners
-            .div_ceil(2)
-            .max((corners + 1).saturating_sub(self.live))
+        least_neighbours(self.missing >> (16 * cache) & 0xffff, self.live)
     }
 }
 
 pub(super) struct State<'a, M, const CACHES: usize> {
     faces: &'a [[u32; 3]],
     /// One more than there are, so that each row has an end.
-    vertices: Vec<Vertex<CACHES>>,
+    vertices: Vec<SearchVertex<CACHES>>,
     /// Rows of faces with their other two corners, drawn faces included.
     rows: Vec<[u32; 3]>,
     drawn: Vec<bool>,
@@ -70,7 +65,7 @@ pub(super) struct State<'a, M, const CACHES: usize> {
     gathered: Vec<u32>,
     /// The number of the attempt, and what it has overwritten.
     attempt: u32,
-    overwritten: Vec<(u32, Vertex<CACHES>)>,
+    overwritten: Vec<(u32, SearchVertex<CACHES>)>,
     pub(super) new_to_old: Vec<u32>,
     pub(super) rotations: Vec<u8>,
     /// Vertices that were candidates and are no more, though unfinished.
@@ -108,7 +103,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         vertex_count: usize,
         limits: [CacheLimits; CACHES],
     ) -> Self {
-        let unused = Vertex {
+        let unused = SearchVertex {
             entered: [0; CACHES],
             row: 0,
             live: 0,
@@ -123,22 +118,20 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         let mut end = 0;
         for vertex in &mut vertices {
             end += vertex.live;
-            // Walks from the end of the row to its start while the row is filled from behind.
             vertex.row = end;
             vertex.missing = vertex.live.wrapping_mul(2 * everywhere);
         }
-        let mut rows = vec![[0; 3]; faces.len() * 3];
-        for (face, &[a, b, c]) in (0..index32(faces.len())).zip(faces).rev() {
-            for [corner, next, other] in [[c, a, b], [b, c, a], [a, b, c]] {
-                let start = &mut vertices[corner as usize].row;
-                *start -= 1;
-                rows[*start as usize] = [face, next, other];
-            }
-        }
+
+        // Rows whose starts stand with their vertices: no second line of memory for a row.
+        let mut entries = vec![[0; 3]; faces.len() * 3];
+        let numbered = (0..index32(faces.len())).zip(faces).rev();
+        let items = numbered
+            .map(|(face, &[a, b, c])| [(c, [face, a, b]), (b, [face, c, a]), (a, [face, b, c])]);
+        rows::place_from_behind(&mut vertices, |vertex| &mut vertex.row, items, &mut entries);
         Self {
             faces,
             vertices,
-            rows,
+            rows: entries,
             drawn: vec![false; faces.len()],
             caches: limits.map(|limits| Cache::new(limits, index32(vertex_count))),
             recent: M::default(),
@@ -247,7 +240,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
 
     /// The vertex, after remembering what it was before this attempt.
     #[inline]
-    fn change<const UNDO: bool>(&mut self, vertex: u32) -> &mut Vertex<CACHES> {
+    fn change<const UNDO: bool>(&mut self, vertex: u32) -> &mut SearchVertex<CACHES> {
         let entry = &mut self.vertices[vertex as usize];
         if UNDO && entry.attempt != self.attempt {
             self.overwritten.push((vertex, *entry));

@@ -1,6 +1,6 @@
 //! The caches that a traversal models.
 
-use crate::limits::index32;
+use crate::index::index32;
 
 /// Entries of a ring of pushed vertices; more than any window.
 pub(super) const RING: usize = 256;

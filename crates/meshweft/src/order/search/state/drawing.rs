@@ -5,7 +5,8 @@ use std::ops::Range;
 use super::super::mask::Mask;
 use super::caches::RING;
 use super::{State, one_in};
-use crate::order::greedy::{HITS_FIRST, HUB};
+use crate::faces::turned;
+use crate::order::greedy::{HITS_FIRST, HUB, gather_live};
 
 impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
     /// Draws the live faces of `focus`, up to the end of the first cache's batch.
@@ -13,15 +14,8 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
     pub(in crate::order::search) fn draw<const UNDO: bool>(&mut self, focus: u32) {
         let mut gathered = std::mem::take(&mut self.gathered);
         let row = self.row(focus);
-        if gathered.len() < row.len() {
-            gathered.resize(row.len(), 0);
-        }
-        let mut count = 0;
-        for &[face, ..] in &self.rows[row] {
-            // Written in any case and kept only if live: no branch for the processor to guess.
-            gathered[count] = face;
-            count += usize::from(!self.drawn[face as usize]);
-        }
+        let row = self.rows[row].iter().map(|&[face, ..]| face);
+        let count = gather_live(row, &self.drawn, &mut gathered);
         for &face in &gathered[..count] {
             if self.drawn[face as usize] {
                 // It names a vertex twice, or its polygon is drawn.
@@ -78,8 +72,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         };
         self.rotations.push(rotation);
         self.new_to_old.push(face);
-        let [a, b, c] = corners;
-        let turned = [[a, b, c], [b, c, a], [c, a, b]][rotation as usize];
+        let turned = turned(corners, rotation);
         for cache in 0..CACHES {
             // A face may name a vertex twice, and with kept corners an earlier push may have
             // evicted a corner that was there.

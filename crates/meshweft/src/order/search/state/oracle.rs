@@ -131,8 +131,8 @@ fn draw_all<M: Mask, const CACHES: usize>(
             }
         }
         state.undo(&saved);
-        let known = |vertices: &[Vertex<CACHES>]| -> Vec<_> {
-            let known = |v: &Vertex<CACHES>| (v.entered, v.row, v.live, v.missing);
+        let known = |vertices: &[SearchVertex<CACHES>]| -> Vec<_> {
+            let known = |v: &SearchVertex<CACHES>| (v.entered, v.row, v.live, v.missing);
             vertices.iter().map(known).collect()
         };
         assert_eq!(known(&state.vertices), known(&before.0));

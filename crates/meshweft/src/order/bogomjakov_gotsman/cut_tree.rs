@@ -1,6 +1,6 @@
 //! A mesh cut in halves again and again.
 
-use crate::limits::index32;
+use crate::index::index32;
 use crate::parallel;
 use crate::partition::{Bisection, Graph, coarser, halves};
 use crate::random::SplitMix64;

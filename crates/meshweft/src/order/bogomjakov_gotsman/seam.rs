@@ -1,5 +1,7 @@
 //! What two sequences save when one is drawn after the other.
 
+use crate::faces::Faces;
+
 /// Sizes of the FIFO caches that a seam is judged by.
 const SIZES: Lanes = [10, 12, 16, 64];
 const LANES: usize = 4;
@@ -12,7 +14,7 @@ const REACH: usize = 40;
 /// FIFO caches of several sizes side by side.
 ///
 /// Whether a corner is there is asked before its face is drawn, as if hits came first.
-pub(super) struct Caches<'a> {
+pub(super) struct SeamCaches<'a> {
     faces: &'a [[u32; 3]],
     /// The push that each vertex entered each cache with.
     entered: Vec<Lanes>,
@@ -22,18 +24,18 @@ pub(super) struct Caches<'a> {
 
 /// A way to draw a part: its faces in order, and their misses in empty caches from the front and
 /// from the back.
-pub(super) struct Sequence {
+pub(super) struct PartSequence {
     pub(super) faces: Vec<u32>,
     misses: [u32; 2],
     /// The same of the first [`REACH`] faces from either end.
     head_misses: [u32; 2],
 }
 
-impl<'a> Caches<'a> {
-    pub(super) fn new(faces: &'a [[u32; 3]], vertex_count: usize) -> Self {
+impl<'a> SeamCaches<'a> {
+    pub(super) fn new(faces: Faces<'a>) -> Self {
         Self {
-            faces,
-            entered: vec![[0; LANES]; vertex_count],
+            faces: faces.corners(),
+            entered: vec![[0; LANES]; faces.vertex_count()],
             pushes: [0; LANES],
             overwritten: Vec::new(),
         }
@@ -106,7 +108,7 @@ impl<'a> Caches<'a> {
     }
 
     /// The faces as they are.
-    pub(super) fn sequence(&mut self, faces: Vec<u32>) -> Sequence {
+    pub(super) fn sequence(&mut self, faces: Vec<u32>) -> PartSequence {
         self.empty();
         let forward = self.draw_all(faces.iter().copied());
         self.empty();
@@ -119,8 +121,8 @@ impl<'a> Caches<'a> {
         faces: Vec<u32>,
         misses: [u32; 2],
         known: [Option<u32>; 2],
-    ) -> Sequence {
-        let mut sequence = Sequence {
+    ) -> PartSequence {
+        let mut sequence = PartSequence {
             faces,
             misses,
             head_misses: misses,
@@ -138,7 +140,7 @@ impl<'a> Caches<'a> {
 
     /// The best of the eight ways to draw two sequences one after the other: either first, each
     /// forward or backward.
-    pub(super) fn joined(&mut self, pair: [Sequence; 2]) -> Sequence {
+    pub(super) fn joined(&mut self, pair: [PartSequence; 2]) -> PartSequence {
         // By way: which is first, whether it is turned, whether the other is.
         let mut misses = [0_u32; 8];
         for (way, misses) in misses.chunks_exact_mut(2).enumerate() {
@@ -163,7 +165,7 @@ impl<'a> Caches<'a> {
         let (first, a, b) = (way >> 2, way >> 1 & 1, way & 1);
         let (front, back) = (&pair[first], &pair[1 - first]);
         let faces = front.from(a == 1).chain(back.from(b == 1)).collect();
-        let head = |sequence: &Sequence, end: usize| {
+        let head = |sequence: &PartSequence, end: usize| {
             (sequence.faces.len() >= REACH).then(|| sequence.head_misses[end])
         };
         let misses = [misses[way], misses[backward(way)]];
@@ -171,7 +173,7 @@ impl<'a> Caches<'a> {
     }
 }
 
-impl Sequence {
+impl PartSequence {
     /// Its faces from the front or from the back.
     fn from(&self, backward: bool) -> impl Iterator<Item = u32> {
         let last = self.faces.len().wrapping_sub(1);

@@ -14,30 +14,31 @@
 //! this is a metric, and a way to orient a tree; it is not a goal.
 
 use super::cut_tree::{CutTree, Cutter, Cutting};
-use super::turned;
-use crate::adjacency::Adjacency;
-use crate::limits::index32;
-use crate::mesh::Mesh;
+use crate::cache::CacheModel;
+use crate::faces::Faces;
+use crate::index::index32;
+use crate::order::turn_corners::turn_corners;
 use crate::partition::Graph;
 use crate::permutation::{FaceOrder, Permutation};
+use crate::topology::Adjacency;
 
 /// The sum over all used vertices of the distance from their first to their last face.
 ///
 /// ```
-/// use meshweft::order::universal::linear_arrangement_cost;
+/// use meshweft::order::bogomjakov_gotsman::linear_arrangement_cost;
 /// // Vertices 1 and 2 of a strip are used twice, one face apart.
 /// assert_eq!(linear_arrangement_cost(&[[0, 1, 2], [1, 3, 2]]), 2);
 /// ```
 ///
 /// # Complexity
-/// Time O(faces + greatest index), space 4 bytes for each index up to the greatest.
+/// Time O(faces + vertices), space 4 bytes a vertex.
 #[must_use]
-pub fn cost(faces: &[[u32; 3]]) -> u64 {
+pub fn cost<'a>(faces: impl Into<Faces<'a>>) -> u64 {
     const UNUSED: u32 = u32::MAX;
-    let greatest = faces.as_flattened().iter().max().copied();
-    let mut last = vec![UNUSED; greatest.map_or(0, |greatest| greatest as usize + 1)];
+    let faces = faces.into();
+    let mut last = vec![UNUSED; faces.vertex_count()];
     let mut cost = 0;
-    for (i, face) in (0..).zip(faces) {
+    for (i, face) in (0..).zip(faces.corners()) {
         for &vertex in face {
             let last = &mut last[vertex as usize];
             if *last != UNUSED {
@@ -52,7 +53,7 @@ pub fn cost(faces: &[[u32; 3]]) -> u64 {
 /// A rendering sequence by an approximate minimum linear arrangement (Bogomjakov & Gotsman 2002).
 ///
 /// ```
-/// use meshweft::{Mesh, order::{baselines, universal::{LinearArrangement, linear_arrangement_cost}}};
+/// use meshweft::{Mesh, order::{baselines, bogomjakov_gotsman::{LinearArrangement, linear_arrangement_cost}}};
 /// let strip = |i: u32| if i % 2 == 0 { [i, i + 1, i + 2] } else { [i + 1, i, i + 2] };
 /// let faces = baselines::random(100, 1).apply(&(0..100).map(strip).collect::<Vec<_>>());
 /// let mesh = Mesh::connectivity_only(102, faces)?;
@@ -86,7 +87,7 @@ impl Default for LinearArrangement {
 }
 
 impl LinearArrangement {
-    /// The order in which to draw the faces of `mesh`.
+    /// The order in which to draw the faces.
     ///
     /// The tree goes down to single faces. Its upper levels are oriented first, as if each subtree
     /// below were one block; then each of these, with all others where they are. Corners are turned
@@ -95,34 +96,35 @@ impl LinearArrangement {
     /// # Complexity
     /// Time O(faces · (log faces + 2^levels)), space 150 bytes a face.
     #[must_use]
-    pub fn face_order(&self, mesh: &Mesh) -> FaceOrder {
+    pub fn face_order<'a>(&self, faces: impl Into<Faces<'a>>) -> FaceOrder {
+        let faces = faces.into();
         let cutting = Cutting {
             piece: 1,
             seed: self.seed,
             cutter: self.cutter,
         };
-        let graph = Graph::dual(mesh.faces(), mesh.vertex_count());
+        let graph = Graph::dual(faces);
         let tree = CutTree::new(&graph, &cutting);
         drop(graph);
-        let faces = oriented(&tree, mesh, self.levels);
-        let order = Permutation::from_algorithm(faces).into();
+        let sequence = oriented(&tree, faces, self.levels);
+        let order = Permutation::from_algorithm(sequence).into();
         match self.keep_corners {
             true => order,
-            false => turned(order, mesh),
+            false => turn_corners(faces, &order, CacheModel::fifo(12)),
         }
     }
 }
 
 /// The faces of the tree from the first leaf to the last, its halves turned as is best.
-pub(super) fn oriented(tree: &CutTree, mesh: &Mesh, levels: u32) -> Vec<u32> {
-    let face_count = mesh.face_count();
+pub(super) fn oriented(tree: &CutTree, faces: Faces<'_>, levels: u32) -> Vec<u32> {
+    let face_count = faces.len();
     let mut orienting = Orienting {
-        mesh,
-        adjacency: Adjacency::new(mesh.faces(), mesh.vertex_count()),
+        faces,
+        adjacency: Adjacency::new(faces),
         levels: levels.clamp(1, 6),
         starts: vec![0; face_count],
         unit_of: vec![0; face_count],
-        seen: vec![0; mesh.vertex_count()],
+        seen: vec![0; faces.vertex_count()],
         blocks: 0,
         sequence: vec![0; face_count],
     };
@@ -135,7 +137,7 @@ pub(super) fn oriented(tree: &CutTree, mesh: &Mesh, levels: u32) -> Vec<u32> {
 }
 
 struct Orienting<'a> {
-    mesh: &'a Mesh,
+    faces: Faces<'a>,
     adjacency: Adjacency,
     levels: u32,
     /// Where the subtree of each face starts that is known to be placed.
@@ -151,7 +153,7 @@ struct Orienting<'a> {
 /// Blocks of a subtree as a bit set.
 type Units = u64;
 
-/// A vertex, or several alike: in which blocks it has faces, and whether before and behind them all.
+/// The blocks that a vertex's faces touch, and whether it also has faces before or after this subtree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Span {
     units: Units,
@@ -214,7 +216,7 @@ impl Orienting<'_> {
         let mut spans = Vec::new();
         for unit in units {
             unit.for_each_face(&mut |face| {
-                for vertex in self.mesh.faces()[face as usize] {
+                for vertex in self.faces.corners()[face as usize] {
                     let seen = &mut self.seen[vertex as usize];
                     if std::mem::replace(seen, self.blocks) == self.blocks {
                         continue;

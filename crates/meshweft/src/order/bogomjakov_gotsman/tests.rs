@@ -6,8 +6,10 @@ use super::cut_tree::{CutTree, Cutting};
 use super::linear_arrangement::{cost, oriented};
 use super::*;
 use crate::cache::{self, CacheModel};
+use crate::mesh::Mesh;
 use crate::order::baselines;
 use crate::partition::Graph;
+use crate::permutation::FaceOrder;
 
 /// Any faces at all.
 fn soups() -> impl Strategy<Value = Mesh> {
@@ -26,7 +28,7 @@ fn strip(squares: u32) -> Mesh {
 }
 
 fn tree(mesh: &Mesh, piece: u32) -> CutTree {
-    let graph = Graph::dual(mesh.faces(), mesh.vertex_count());
+    let graph = Graph::dual(mesh);
     let cutting = Cutting {
         piece,
         seed: 3,
@@ -71,14 +73,14 @@ proptest! {
         let tree = tree(&mesh, 1);
         let all = all_sequences(&tree);
         let least = all.iter().map(|sequence| cost_in_order(&mesh, sequence)).min();
-        let found = oriented(&tree, &mesh, 6);
+        let found = oriented(&tree, mesh.as_faces(), 6);
         prop_assert_eq!(Some(cost_in_order(&mesh, &found)), least);
     }
 
     #[test]
     fn a_few_levels_at_a_time_orient_the_same_tree(mesh in soups(), levels in 1..6_u32) {
         let tree = tree(&mesh, 1);
-        let mut found = oriented(&tree, &mesh, levels);
+        let mut found = oriented(&tree, mesh.as_faces(), levels);
         found.sort_unstable();
         prop_assert!(found.into_iter().eq(0..u32::try_from(mesh.face_count()).unwrap()));
     }

@@ -9,11 +9,11 @@
 //!   and 64 ([`seam`](super::seam)). This is worth more than better cuts.
 
 use super::cut_tree::{CutTree, Cutter, Cutting};
-use super::seam::{Caches, Sequence};
-use super::turned;
+use super::seam::{PartSequence, SeamCaches};
 use crate::cache::CacheModel;
-use crate::mesh::Mesh;
-use crate::order::KCacheReorder;
+use crate::faces::Faces;
+use crate::order::k_cache_reorder::KCacheReorder;
+use crate::order::turn_corners::turn_corners;
 use crate::parallel;
 use crate::partition::Graph;
 use crate::permutation::{FaceOrder, Permutation};
@@ -21,7 +21,7 @@ use crate::permutation::{FaceOrder, Permutation};
 /// A rendering sequence by recursive cut (Bogomjakov & Gotsman 2002).
 ///
 /// ```
-/// use meshweft::{CacheModel, Mesh, cache, order::{baselines, universal::RecursiveCut}};
+/// use meshweft::{CacheModel, Mesh, cache, order::{baselines, bogomjakov_gotsman::RecursiveCut}};
 /// let strip = |i: u32| if i % 2 == 0 { [i, i + 1, i + 2] } else { [i + 1, i, i + 2] };
 /// let faces = baselines::random(100, 1).apply(&(0..100).map(strip).collect::<Vec<_>>());
 /// let mesh = Mesh::connectivity_only(102, faces)?;
@@ -56,54 +56,54 @@ impl Default for RecursiveCut {
 const ALONE: usize = 1 << 16;
 
 impl RecursiveCut {
-    /// The order in which to draw the faces of `mesh`.
+    /// The order in which to draw the faces.
     ///
     /// Corners are turned so that hits come first in a FIFO cache of 12, unless that is forbidden.
     ///
     /// # Complexity
     /// Time O(faces · log faces), space 150 bytes a face.
     #[must_use]
-    pub fn face_order(&self, mesh: &Mesh) -> FaceOrder {
+    pub fn face_order<'a>(&self, faces: impl Into<Faces<'a>>) -> FaceOrder {
+        let faces = faces.into();
+
+        // Pieces are drawn as the greedy would: so the faces are cut in its order.
         let inside = KCacheReorder {
             cache: CacheModel::fifo(12),
             keep_corners: true,
             ..KCacheReorder::default()
         };
-        let inside = inside.face_order(mesh);
-        let faces = inside.apply(mesh.faces());
-        let graph = Graph::dual(&faces, mesh.vertex_count());
+        let inside = inside.face_order(faces);
+        let in_order = inside.apply(faces.corners());
+        let in_order = Faces::of_checked(&in_order, faces.vertex_count());
+        let graph = Graph::dual(in_order);
         let cutting = Cutting {
             piece: self.piece,
             seed: self.seed,
             cutter: self.cutter,
         };
         let tree = CutTree::new(&graph, &cutting);
-        let join = Join {
-            faces: &faces,
-            vertex_count: mesh.vertex_count(),
-        };
-        let sequence = join.apart(tree).faces;
+
+        let sequence = Join { faces: in_order }.apart(tree).faces;
         let order = Permutation::from_algorithm(sequence);
         let order = inside.then(&order.into());
         match self.keep_corners {
             true => order,
-            false => turned(order, mesh),
+            false => turn_corners(faces, &order, CacheModel::fifo(12)),
         }
     }
 }
 
 struct Join<'a> {
-    faces: &'a [[u32; 3]],
-    vertex_count: usize,
+    faces: Faces<'a>,
 }
 
 impl Join<'_> {
-    fn caches(&self) -> Caches<'_> {
-        Caches::new(self.faces, self.vertex_count)
+    fn caches(&self) -> SeamCaches<'_> {
+        SeamCaches::new(self.faces)
     }
 
     /// Large halves side by side.
-    fn apart(&self, tree: CutTree) -> Sequence {
+    fn apart(&self, tree: CutTree) -> PartSequence {
         match tree {
             CutTree::Cut(halves, len) if len > ALONE => {
                 let halves: [CutTree; 2] = *halves;
@@ -117,7 +117,7 @@ impl Join<'_> {
     }
 }
 
-fn together(tree: CutTree, caches: &mut Caches<'_>) -> Sequence {
+fn together(tree: CutTree, caches: &mut SeamCaches<'_>) -> PartSequence {
     match tree {
         CutTree::Piece(faces) => caches.sequence(faces),
         CutTree::Cut(halves, _) => {

@@ -1,0 +1,107 @@
+//! What an order is to be good for, and how much time it is worth.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::cache::{self, CacheModel, ParseCacheModelError};
+use crate::faces::Faces;
+
+/// What an order is to be good for.
+///
+/// Written and read as `universal` or as a [`CacheModel`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Target {
+    /// Every cache size and every GPU at once: for files whose device is not known.
+    #[default]
+    Universal,
+    /// One cache.
+    Cache(CacheModel),
+}
+
+impl Target {
+    /// The caches that [`Universal`](Self::Universal) is judged by: FIFO caches of 10 to 64
+    /// vertices and the batches of three GPUs.
+    pub const UNIVERSAL: [CacheModel; 9] = [
+        CacheModel::fifo(10),
+        CacheModel::fifo(12),
+        CacheModel::fifo(16),
+        CacheModel::fifo(24),
+        CacheModel::fifo(32),
+        CacheModel::fifo(64),
+        CacheModel::NVIDIA,
+        CacheModel::AMD,
+        CacheModel::INTEL,
+    ];
+
+    /// The caches that it stands for.
+    #[must_use]
+    pub fn models(&self) -> &[CacheModel] {
+        match self {
+            Self::Universal => &Self::UNIVERSAL,
+            Self::Cache(model) => std::slice::from_ref(model),
+        }
+    }
+
+    /// Misses of this order, added up over [`models`](Self::models).
+    ///
+    /// # Complexity
+    /// One [`cache::misses`] a model.
+    #[must_use]
+    pub fn misses<'a>(&self, faces: impl Into<Faces<'a>>) -> u64 {
+        let faces = faces.into();
+        let misses = |&model| cache::misses(faces, model);
+        self.models().iter().map(misses).sum()
+    }
+}
+
+impl From<CacheModel> for Target {
+    fn from(model: CacheModel) -> Self {
+        Self::Cache(model)
+    }
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Universal => f.write_str("universal"),
+            Self::Cache(model) => model.fmt(f),
+        }
+    }
+}
+
+impl FromStr for Target {
+    type Err = ParseTargetError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "universal" => Ok(Self::Universal),
+            _ => text.parse().map(Self::Cache).map_err(ParseTargetError),
+        }
+    }
+}
+
+/// Why a text is not the name of a [`Target`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ParseTargetError(ParseCacheModelError);
+
+impl fmt::Display for ParseTargetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, or universal", self.0)
+    }
+}
+
+impl std::error::Error for ParseTargetError {}
+
+/// How much time an order is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+#[non_exhaustive]
+pub enum Effort {
+    /// One greedy pass; for the universal target the best of three continuations.
+    #[default]
+    Fast,
+    /// A search of about twenty times that.
+    Best,
+    /// A search of some two or three hundred times that.
+    Max,
+}
