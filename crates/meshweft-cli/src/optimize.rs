@@ -156,7 +156,7 @@ fn optimize(
             fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
         }
         match improvement.changes() {
-            true => document.write(target)?,
+            true => drop(document.write(target)?),
             false => write_unchanged(&document, input, target)?,
         }
     }
@@ -209,7 +209,8 @@ fn write_unchanged(document: &Document, path: &Path, target: &Path) -> Result<()
         fs::copy(path, target).with_context(|| target.display().to_string())?;
         return Ok(());
     }
-    Ok(document.write(target)?)
+    document.write(target)?;
+    Ok(())
 }
 
 /// The caches that were ordered for, and the usual ones.

@@ -4,6 +4,8 @@
 
 #[path = "files_text/broken.rs"]
 mod broken;
+#[path = "files_errors/mod.rs"]
+mod errors;
 #[path = "files_text/real.rs"]
 mod real;
 #[path = "../../../fuzz/fuzz_targets/round_trip/mod.rs"]
@@ -17,7 +19,8 @@ mod stl;
 
 use std::path::Path;
 
-use meshweft::files::{Document, FileError, FileErrorKind, Format, MeshEntry};
+use errors::error_of;
+use meshweft::files::{Document, Format, MeshEntry};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 use simple::Pieces;
 
@@ -78,28 +81,13 @@ fn entry_of(bytes: &[u8], format: Format) -> MeshEntry {
     open(bytes, format).meshes()[0].clone()
 }
 
+fn error(bytes: &[u8], format: Format) -> String {
+    let name = name_of(format).to_str().unwrap();
+    error_of(bytes, name, Limits::default())
+}
+
 fn written(document: &Document) -> Vec<u8> {
     document.to_bytes(name_of(document.format())).unwrap()
-}
-
-fn error(bytes: &[u8], format: Format) -> String {
-    let limits = Limits::default();
-    match Document::from_bytes(bytes.to_vec(), format, name_of(format), limits) {
-        Ok(_) => panic!("{:?} was read", String::from_utf8_lossy(bytes)),
-        Err(error) => message(&error),
-    }
-}
-
-/// The message without the advice that is the same for all of its kind, which must be there.
-fn message(error: &FileError) -> String {
-    let advice = match error.kind {
-        FileErrorKind::Malformed { .. } => " Mend it there, or export the file again",
-        FileErrorKind::OverLimit { .. } => " Split the file, or allow more",
-        _ => return error.to_string(),
-    };
-    let text = error.to_string();
-    let text = text.strip_suffix(advice).expect("advice");
-    text.strip_suffix('.').unwrap_or(text).to_owned()
 }
 
 /// Asserts that `new` is `old` with its records in these orders, and nothing else.
@@ -198,7 +186,7 @@ fn obj_polygons_are_not_turned() {
 }
 
 #[test]
-fn an_obj_statement_goes_on_behind_a_backslash() {
+fn an_obj_statement_goes_on_after_a_backslash() {
     let text = "v 0 \\\n 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 \\\r\n 3\nf 2 3 4 \\\n\nf 1 3 4 # \\\nf 1 2 4\n";
     let mut document = open(text.as_bytes(), Format::Obj);
     assert_eq!(document.meshes()[0].mesh.face_count(), 4);

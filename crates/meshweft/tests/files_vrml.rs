@@ -4,6 +4,8 @@
 
 #[path = "files_vrml/broken.rs"]
 mod broken;
+#[path = "files_errors/mod.rs"]
+mod errors;
 #[path = "files_vrml/plain.rs"]
 mod plain;
 #[path = "../../../fuzz/fuzz_targets/round_trip/mod.rs"]
@@ -170,12 +172,12 @@ fn what_is_shared_stays() {
     assert_eq!(counts.collect::<Vec<_>>(), [3, 2]);
 }
 
-/// A face set with two triangles, the fields of `more`, and what is `behind` it.
-fn face_set(more: &str, behind: &str) -> String {
+/// A face set with two triangles, the fields of `more`, and what comes `after` it.
+fn face_set(more: &str, after: &str) -> String {
     format!(
         "#VRML V2.0 utf8\nShape {{ geometry IndexedFaceSet {{\n\
          coord Coordinate {{ point [ 0 0 0, 1 0 0, 0 1 0 ] }}\n\
-         coordIndex [ 0 1 2 -1 2 1 0 -1 ]\n{more} }} }}\n{behind}"
+         coordIndex [ 0 1 2 -1 2 1 0 -1 ]\n{more} }} }}\n{after}"
     )
 }
 
@@ -280,7 +282,7 @@ fn every_reason_to_stay_is_said() {
         whole("IndexedFaceSet { coord NULL coordIndex 0 }"),
         ["2: the mesh stays as it is: it has no coord"]
     );
-    // A name given anew within a PROTO is another one.
+    // A name given again within a PROTO is another one.
     let shadow = "Group { children [ DEF C Coordinate { point 0 0 0 } ] }\n\
                   PROTO P [ ] { IndexedFaceSet { coord USE C coordIndex 0 } }\n";
     assert_eq!(

@@ -148,7 +148,7 @@ impl MeshEntry {
         starts.push(index32(mesh.face_count()));
         let order = face_order(&mesh, self.polygons.is_some().then_some(&starts[..]));
         // A polygon goes where the first of its triangles went; one with no triangle (a point, a
-        // line) stays behind the others.
+        // line) stays after the others.
         let mut placed = vec![false; run.len()];
         for (new, &old) in order.new_to_old().iter().enumerate() {
             let record = record_of[old as usize];

@@ -3,7 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::Format;
+use super::format::Format;
+use super::text::line_of;
 
 /// Why a file could not be read, changed or written.
 #[derive(Debug)]
@@ -64,6 +65,13 @@ pub enum FileErrorKind {
         /// What it uses, and what to do about it.
         feature: String,
     },
+    /// Something that is not known, in a file that is read with [`strict`](super::ReadOptions::strict).
+    Unknown {
+        /// What it is: an extension, an element, a statement.
+        what: &'static str,
+        /// Its name.
+        name: String,
+    },
     /// An order that the file's meshes cannot take.
     Order(crate::MeshError),
 }
@@ -112,6 +120,25 @@ impl Problem {
     }
 }
 
+/// What is wrong in the bytes of a file, and the byte where.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub(super) at: usize,
+    pub(super) kind: FileErrorKind,
+}
+
+impl Fault {
+    pub(super) fn malformed(at: usize, text: impl Into<String>) -> Self {
+        let kind = FileErrorKind::malformed(text);
+        Self { at, kind }
+    }
+
+    /// The problem, placed on its line of the text.
+    pub(super) fn on_its_line(self, source: &[u8]) -> Problem {
+        self.kind.at(Place::Line(line_of(source, self.at)))
+    }
+}
+
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.path.display())?;
@@ -131,15 +158,15 @@ impl fmt::Display for FileErrorKind {
             Self::Io(error) => write!(f, "{error}"),
             Self::UnknownFormat => f.write_str(
                 "unknown format: files that end in .gltf, .glb, .obj, .ply, .off, .stl, .wrl \
-                 or .vrml are read (also with .gz behind)",
+                 or .vrml are read, optionally followed by .gz",
             ),
             Self::Truncated { what } => write!(
                 f,
-                "the file ends inside {what}. Fetch or export it again: it is incomplete"
+                "the file ends inside {what}. Fetch it again or re-export it: it is incomplete"
             ),
             Self::Malformed { problem } => {
                 let end = if problem.ends_with('?') { "" } else { "." };
-                write!(f, "{problem}{end} Mend it there, or export the file again")
+                write!(f, "{problem}{end} Fix it there, or re-export the file")
             }
             Self::OverLimit { what, found, limit } => {
                 write!(
@@ -148,6 +175,10 @@ impl fmt::Display for FileErrorKind {
                 )
             }
             Self::Unsupported { feature } => f.write_str(feature),
+            Self::Unknown { what, name } => write!(
+                f,
+                "{what} {name} is not known and may depend on the order of vertices or faces"
+            ),
             Self::Order(error) => write!(f, "{error}"),
         }
     }

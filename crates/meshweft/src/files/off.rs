@@ -1,25 +1,28 @@
 //! Object File Format (Geomview), ascii: vertex lines and face lines move.
 //!
-//! One line is one record, as nearly every writer has it: the numbers behind those that are needed
+//! One line is one record, as nearly every writer has it: the numbers after those that are needed
 //! (colours of faces, or what a program adds to a vertex) go along with their line. The keyword may
 //! be missing, the number of edges may be missing or wrong, as in many files that are around.
 
 use std::ops::Range;
 
+use super::content::ReadResult;
+use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
-use super::records::{
-    FaceRecords, Spans, check_face_count, check_vertex_count, past_the_last_vertex,
-};
-use super::splice::{Change, Notation, Orders, RecordFile, write_corners};
+use super::face_records::{FaceRecords, check_face_count, check_vertex_count, corner_vertex};
+use super::note::Note;
+use super::options::ReadOptions;
+use super::slots::Spans;
+use super::splice::{Notation, Orders, RecordFile, Rewrite, vertex_from_zero};
 use super::text::{
     Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed, whole_number,
 };
-use super::{MeshEntry, Note, ReadResult};
 use crate::Mesh;
 use crate::limits::Limits;
 
 /// Reads an OFF file.
-pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
+pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
+    let limits = &options.limits;
     let mut lines = Lines {
         text: &bytes,
         at: if bytes.starts_with(b"\xef\xbb\xbf") {
@@ -33,8 +36,7 @@ pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
     let (faces, records) = faces(&mut lines, &header, limits)?;
     let (mut entries, mut notes) = (Vec::new(), Vec::new());
     if records.len() == 0 {
-        let text = "no faces: there is nothing to order";
-        notes.push(Note::new(Place::File, text));
+        notes.push(Note::nothing_to_order());
     } else {
         let mesh = Mesh::new(positions, records.faces);
         let mesh = mesh.map_err(|e| FileErrorKind::malformed(e.to_string()).at(Place::File))?;
@@ -109,7 +111,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-struct Header {
+struct OffHeader {
     vertex_count: usize,
     face_count: usize,
     /// How many coordinates a vertex has.
@@ -119,7 +121,7 @@ struct Header {
 }
 
 /// Reads the keyword and the counts.
-fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<Header, Problem> {
+fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader, Problem> {
     let text = lines.text;
     let mut tokens: Vec<Range<usize>> = Vec::new();
     let mut used = 0;
@@ -174,7 +176,7 @@ fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<Header, Problem> {
     let checked = check_vertex_count(vertex_count, limits);
     let checked = checked.and_then(|()| check_face_count(face_count, limits));
     checked.map_err(|kind| lines.problem(place, kind))?;
-    Ok(Header {
+    Ok(OffHeader {
         vertex_count,
         face_count,
         dimension,
@@ -229,7 +231,7 @@ impl Keyword {
 
 type VertexLines = (Spans, Vec<[f32; 3]>);
 
-fn vertices(lines: &mut Lines<'_>, header: &Header) -> Result<VertexLines, Problem> {
+fn vertices(lines: &mut Lines<'_>, header: &OffHeader) -> Result<VertexLines, Problem> {
     let mut spans = Spans::new();
     let shortest = header.vertex_numbers.saturating_mul(2).max(1);
     let mut positions = Vec::with_capacity(lines.at_most(header.vertex_count, shortest));
@@ -266,12 +268,12 @@ fn vertices(lines: &mut Lines<'_>, header: &Header) -> Result<VertexLines, Probl
 
 fn faces(
     lines: &mut Lines<'_>,
-    header: &Header,
+    header: &OffHeader,
     limits: &Limits,
 ) -> Result<(Spans, FaceRecords), Problem> {
     let mut spans = Spans::new();
     let mut records = FaceRecords::default();
-    // In text each number has something behind it.
+    // In text each number has something after it.
     let left = lines.text.len() - lines.at;
     records.reserve(lines.at_most(header.face_count, 2), left / 2);
     let mut corners = Vec::new();
@@ -317,35 +319,24 @@ fn face_corners(
                 shown(token)
             ))
         })?;
-        let vertex = u32::try_from(number).ok();
-        let vertex = vertex.filter(|&vertex| (vertex as usize) < vertex_count);
-        corners.push(vertex.ok_or_else(|| {
-            let last = vertex_count.checked_sub(1);
-            let kind = past_the_last_vertex("face", face, corner, number, last);
-            lines.problem(line.start, kind)
-        })?);
+        let vertex = corner_vertex(number, vertex_count, face, corner);
+        corners.push(vertex.map_err(|kind| lines.problem(line.start, kind))?);
     }
     Ok(())
 }
 
-/// How corners stand in face lines: behind their number.
+/// How corners stand in face lines: after their number.
 struct OffNotation;
 
 impl Notation for OffNotation {
-    fn write_face(
-        &self,
-        _number: usize,
-        record: &[u8],
-        change: Change<'_>,
-        scratch: &mut Vec<Range<usize>>,
-        out: &mut Vec<u8>,
-    ) {
+    fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>) {
         let mut tokens = Tokens::plain(record, 0);
         let corner_count = tokens.next().and_then(|token| whole_number(&record[token]));
         let corner_count = corner_count.and_then(|n| usize::try_from(n).ok());
-        scratch.clear();
-        scratch.extend(tokens.take(corner_count.unwrap_or(0)));
-        let vertex_of = |number| usize::try_from(number).ok();
-        write_corners(record, scratch, change, 0, vertex_of, out);
+        rewrite.corners.clear();
+        rewrite
+            .corners
+            .extend(tokens.take(corner_count.unwrap_or(0)));
+        rewrite.write_corners(record, 0, vertex_from_zero);
     }
 }

@@ -53,13 +53,10 @@ impl ReadOptions {
     }
 
     /// The error for something unknown, if it is to be refused.
-    pub(super) fn refusal(&self, what: &str, name: &str) -> Option<FileErrorKind> {
-        self.strict.then(|| {
-            FileErrorKind::unsupported(format!(
-                "{what} {name} is not known and may depend on the order of vertices or faces. \
-                 Leave out --strict to keep what it may depend on, or say --assume-order-safe \
-                 {name} if it does not"
-            ))
+    pub(super) fn refusal(&self, what: &'static str, name: &str) -> Option<FileErrorKind> {
+        self.strict.then(|| FileErrorKind::Unknown {
+            what,
+            name: name.to_owned(),
         })
     }
 }

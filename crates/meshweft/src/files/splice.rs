@@ -5,14 +5,15 @@
 //! there. The source is never changed: orders add up, and the output is spliced when it is asked
 //! for.
 
-use std::io;
 use std::ops::Range;
 use std::path::Path;
+use std::{fmt, io};
 
+use super::content::{Content, OutputFile};
+use super::entry::MeshEntry;
 use super::error::Problem;
-use super::records::Spans;
+use super::slots::Spans;
 use super::text::{leading_number, push_number};
-use super::{Content, MeshEntry, OutputFile};
 use crate::limits::index32;
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -43,66 +44,73 @@ impl Change<'_> {
     }
 }
 
-/// How a format writes the corners of a face record.
-pub(super) trait Notation {
-    /// Appends source record `number`, whose bytes are `record`, with its corners changed.
-    ///
-    /// `scratch` is there to be reused; what it holds means nothing.
-    fn write_face(
-        &self,
-        number: usize,
-        record: &[u8],
-        change: Change<'_>,
-        scratch: &mut Vec<Range<usize>>,
-        out: &mut Vec<u8>,
-    );
+/// One record on its way to the output, with its corners changed.
+pub(super) struct Rewrite<'a> {
+    pub(super) change: Change<'a>,
+    /// Where the corners stand in the record, for formats that have to look for them. There to be
+    /// reused: what it holds at first means nothing.
+    pub(super) corners: &'a mut Vec<Range<usize>>,
+    /// The record is appended to this.
+    pub(super) out: &'a mut Vec<u8>,
+}
 
-    /// Appends line `number` of those that name vertices and stay where they are.
-    fn write_line(
-        &self,
-        _number: usize,
-        line: &[u8],
-        _change: Change<'_>,
-        _scratch: &mut Vec<Range<usize>>,
-        out: &mut Vec<u8>,
+impl Rewrite<'_> {
+    /// Appends `record` with its `corners` turned and their vertices renumbered; all else is copied.
+    ///
+    /// `vertex_of` gives the vertex that a corner names, and how many bytes its number takes at the
+    /// start of the corner. `first` is the number that the file has for vertex 0.
+    #[inline]
+    pub(super) fn write_corners(
+        self,
+        record: &[u8],
+        first: u64,
+        vertex_of: impl Fn(&[u8]) -> Option<(usize, usize)>,
     ) {
-        out.extend_from_slice(line);
+        let Self {
+            change,
+            corners,
+            out,
+        } = self;
+        let mut copied = 0;
+        for (position, slot) in corners.iter().enumerate() {
+            out.extend_from_slice(&record[copied..slot.start]);
+            copied = slot.end;
+
+            let turned = change.turned(position, corners.len());
+            let corner = &record[corners[turned].clone()];
+            let renumbered = vertex_of(corner).and_then(|(old, length)| {
+                let new = *change.old_to_new.get(old)?;
+                (new as usize != old).then_some((u64::from(new), length))
+            });
+            match renumbered {
+                Some((new, length)) => {
+                    push_number(out, new + first);
+                    out.extend_from_slice(&corner[length..]);
+                }
+                None => out.extend_from_slice(corner),
+            }
+        }
+        out.extend_from_slice(&record[copied..]);
     }
 }
 
-/// Appends `record` with the tokens at `corners` turned and the vertex number that each starts
-/// with renewed; all else is copied.
-///
-/// `base` is the number of the first vertex; `vertex_of` resolves a number as it is written.
+/// The vertex of a corner that starts with its number, counted from 0; for
+/// [`Rewrite::write_corners`].
 #[inline]
-pub(super) fn write_corners(
-    record: &[u8],
-    corners: &[Range<usize>],
-    change: Change<'_>,
-    base: u64,
-    vertex_of: impl Fn(i64) -> Option<usize>,
-    out: &mut Vec<u8>,
-) {
-    let mut copied = 0;
-    for (position, slot) in corners.iter().enumerate() {
-        out.extend_from_slice(&record[copied..slot.start]);
-        copied = slot.end;
-        let turned = change.turned(position, corners.len());
-        let token = &record[corners[turned].clone()];
-        let renewed = leading_number(token).and_then(|(number, length)| {
-            let old = vertex_of(number)?;
-            let new = *change.old_to_new.get(old)?;
-            (new as usize != old).then_some((u64::from(new), length))
-        });
-        match renewed {
-            Some((new, length)) => {
-                push_number(out, new + base);
-                out.extend_from_slice(&token[length..]);
-            }
-            None => out.extend_from_slice(token),
-        }
+pub(super) fn vertex_from_zero(corner: &[u8]) -> Option<(usize, usize)> {
+    let (number, length) = leading_number(corner)?;
+    Some((usize::try_from(number).ok()?, length))
+}
+
+/// How a format writes the corners of a face record.
+pub(super) trait Notation: Send + Sync {
+    /// Appends a face record with its corners changed.
+    fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>);
+
+    /// Appends a line that names vertices and stays where it is.
+    fn write_line(&self, line: &[u8], rewrite: Rewrite<'_>) {
+        rewrite.out.extend_from_slice(line);
     }
-    out.extend_from_slice(&record[copied..]);
 }
 
 /// A file of records, and the orders its records were put in.
@@ -185,44 +193,62 @@ impl<N: Notation> RecordFile<N> {
         let old_to_new = self.orders.old_to_new();
         let old_to_new = old_to_new.as_slice();
         let mut layers = Vec::new();
+
         if !records.is_empty() || !vertices.is_empty() {
-            let mut scratch = Vec::new();
+            let mut corners = Vec::new();
             layers.push(Layer::new(&self.faces, move |slots, out| {
                 for slot in slots {
-                    let number = record_in(records, slot);
                     let change = Change {
                         rotation: self.orders.rotation(slot),
                         old_to_new,
                     };
-                    let record = &source[self.faces.span(number)];
-                    match change.is_nothing() {
-                        true => out.extend_from_slice(record),
-                        false => {
-                            let notation = &self.notation;
-                            notation.write_face(number, record, change, &mut scratch, out);
-                        }
+                    let record = &source[self.faces.span(record_in(records, slot))];
+                    if change.is_nothing() {
+                        out.extend_from_slice(record);
+                        continue;
                     }
+                    let rewrite = Rewrite {
+                        change,
+                        corners: &mut corners,
+                        out,
+                    };
+                    self.notation.write_face(record, rewrite);
                 }
             }));
             let companions = self.companions.iter();
             layers.extend(companions.map(|spans| Layer::moved(spans, source, records)));
         }
+
         if !vertices.is_empty() {
             layers.push(Layer::moved(&self.vertices, source, vertices));
-            let mut scratch = Vec::new();
+            let mut corners = Vec::new();
             layers.push(Layer::new(&self.lines, move |slots, out| {
                 for slot in slots {
-                    let line = &source[self.lines.span(slot)];
                     let change = Change {
                         rotation: 0,
                         old_to_new,
                     };
+                    let rewrite = Rewrite {
+                        change,
+                        corners: &mut corners,
+                        out,
+                    };
                     self.notation
-                        .write_line(slot, line, change, &mut scratch, out);
+                        .write_line(&source[self.lines.span(slot)], rewrite);
                 }
             }));
         }
         splice(source, 0..source.len(), layers, sink)
+    }
+}
+
+impl<N> fmt::Debug for RecordFile<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RecordFile")
+            .field("bytes", &self.source.len())
+            .field("vertices", &self.vertices.len())
+            .field("faces", &self.faces.len())
+            .finish_non_exhaustive()
     }
 }
 
@@ -297,8 +323,8 @@ impl<'a> Layer<'a> {
 /// Bytes that are gathered before they are written.
 const PIECE: usize = 1 << 18;
 
-/// Writes the bytes `range` of the source, in which all slots are, with each slot filled anew. Slots
-/// do not overlap.
+/// Writes the bytes `range` of the source, in which all slots are, with each slot filled again. Slots do
+/// not overlap.
 pub(super) fn splice(
     source: &[u8],
     range: Range<usize>,

@@ -3,30 +3,14 @@
 use std::path::Path;
 
 use meshweft::Limits;
-use meshweft::files::{Document, FileError, FileErrorKind, Format};
+use meshweft::files::{Document, Format};
 use serde_json::{Value, json};
 
 use crate::builder::{Builder, F32, U8, U16, glb};
+use crate::errors::error_of;
 
 fn error(name: &str, bytes: Vec<u8>) -> String {
-    let path = Path::new(name);
-    let format = Format::of_path(path).unwrap();
-    match Document::from_bytes(bytes, format, path, Limits::default()) {
-        Ok(_) => panic!("it was read"),
-        Err(error) => message(&error),
-    }
-}
-
-/// The message without the advice that is the same for all of its kind, which must be there.
-fn message(error: &FileError) -> String {
-    let advice = match error.kind {
-        FileErrorKind::Malformed { .. } => " Mend it there, or export the file again",
-        FileErrorKind::OverLimit { .. } => " Split the file, or allow more",
-        _ => return error.to_string(),
-    };
-    let text = error.to_string();
-    let text = text.strip_suffix(advice).expect("advice");
-    text.strip_suffix('.').unwrap_or(text).to_owned()
+    error_of(&bytes, name, Limits::default())
 }
 
 /// The JSON and binary chunk of a mesh with 4 vertices and 2 faces.
@@ -127,7 +111,7 @@ fn the_json_says_something_impossible() {
             j["buffers"][0]["uri"] = json!(null);
         }),
         (
-            "/asset/version: glTF version 1.0: only version 2 is read, export it anew",
+            "/asset/version: glTF version 1.0: only version 2 is read, re-export it",
             |j| j["asset"]["version"] = json!("1.0"),
         ),
     ];
@@ -148,7 +132,7 @@ fn the_indices_name_no_vertex() {
         (
             U8,
             255,
-            "index 255 restarts a strip and is no vertex: store the indices in a wider type",
+            "index 255 restarts a strip and is not a vertex: store the indices in a wider type",
         ),
     ];
     for (component, number, expected) in cases {
@@ -220,8 +204,8 @@ fn the_container_is_broken() {
     let cases: [(&[u8], &str); 5] = [
         (
             b"",
-            "byte 0: the file ends inside the GLB header (12 bytes). Fetch or export it again: it \
-             is incomplete",
+            "byte 0: the file ends inside the GLB header (12 bytes). Fetch it again or re-export \
+             it: it is incomplete",
         ),
         (
             b"solid cube\n",
@@ -229,12 +213,12 @@ fn the_container_is_broken() {
         ),
         (
             b"glTF\x01\0\0\0\x0C\0\0\0",
-            "byte 4: GLB version 1: only version 2 is read, export it anew",
+            "byte 4: GLB version 1: only version 2 is read, re-export it",
         ),
         (
             b"glTF\x02\0\0\0\x18\0\0\0\xFF\xFF\xFF\xFFJSON{}  ",
             "byte 12: the file ends inside a GLB chunk: 4294967295 bytes are promised, 4 are \
-             there. Fetch or export it again: it is incomplete",
+             there. Fetch it again or re-export it: it is incomplete",
         ),
         (
             b"glTF\x02\0\0\0\x18\0\0\0\x04\0\0\0JSON{]  ",
@@ -264,13 +248,8 @@ fn the_limits_hold() {
         (few_vertices, "4 vertices: more than the limit of 3"),
         (few_faces, "2 faces: more than the limit of 1"),
     ] {
-        let path = Path::new("scene.glb");
-        let read = Document::from_bytes(bytes.clone(), Format::Glb, path, limits);
-        let Err(error) = read else {
-            panic!("it was read");
-        };
         let expected = format!("scene.glb: /meshes/0/primitives/0: {expected}");
-        assert_eq!(message(&error), expected);
+        assert_eq!(error_of(&bytes, "scene.glb", limits), expected);
     }
 }
 

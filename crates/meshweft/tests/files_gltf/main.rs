@@ -4,6 +4,8 @@
 mod broken;
 mod builder;
 mod data;
+#[path = "../files_errors/mod.rs"]
+mod errors;
 mod moves;
 mod output;
 mod reader;

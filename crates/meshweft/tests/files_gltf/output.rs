@@ -231,6 +231,28 @@ fn a_compressed_text_keeps_its_buffer_beside_it() {
     assert_eq!(again.meshes(), ordered(&source).meshes());
 }
 
+#[test]
+fn sizes_are_of_all_files_on_the_disk() {
+    let folder = Folder::new("sizes");
+    let source = external(&folder, "a.bin", "a.bin");
+    let size = |path: &Path| fs::metadata(path).unwrap().len();
+    let document = ordered(&source);
+    let buffer = folder.0.join("a.bin");
+    assert_eq!(document.source_bytes(), size(&source) + size(&buffer));
+
+    let (output, new) = (folder.0.join("out.gltf.gz"), folder.0.join("out.bin"));
+    let written = document.write(&output).unwrap();
+    assert_eq!(written.files, [new.as_path(), output.as_path()]);
+    assert_eq!(written.bytes, size(&new) + size(&output));
+
+    // Nothing has changed: the buffer is shared, and neither written nor counted.
+    let unchanged = Document::open(&source, Limits::default()).unwrap();
+    let output = folder.0.join("same.gltf");
+    let written = unchanged.write(&output).unwrap();
+    assert_eq!(written.files, [output.as_path()]);
+    assert_eq!(written.bytes, size(&output));
+}
+
 /// Base64, bit by bit.
 fn encode(bytes: &[u8]) -> String {
     let alphabet: Vec<char> = ('A'..='Z')

@@ -1,8 +1,9 @@
 //! Files that are broken, cut or spoilt: exact errors, and no harm done.
 
 use meshweft::Limits;
-use meshweft::files::{Document, Format};
+use meshweft::files::Format;
 
+use super::errors::error_of;
 use super::stl::{ASCII, binary};
 use super::{OBJ, PLY, PLY_HEAD, PLY_ROWS, Random, binary_ply, error, name_of, round_trip};
 
@@ -11,10 +12,8 @@ fn limits_are_kept() {
     let mut limits = Limits::default();
     (limits.vertices, limits.faces) = (2, 1);
     let open = |text: &str, format| {
-        let read = Document::from_bytes(text.into(), format, name_of(format), limits);
-        read.err()
-            .map(|error| super::message(&error))
-            .unwrap_or_default()
+        let name = name_of(format).to_str().unwrap();
+        error_of(text.as_bytes(), name, limits)
     };
     let obj = open("v 0 0 0\nv 0 0 0\nv 0 0 0\n", Format::Obj);
     assert_eq!(
@@ -37,7 +36,7 @@ fn limits_are_kept() {
 #[test]
 fn a_broken_file_says_what_where_and_what_to_do() {
     let (obj, off, ply) = (Format::Obj, Format::Off, Format::Ply);
-    let cut = "Fetch or export it again: it is incomplete";
+    let cut = "Fetch it again or re-export it: it is incomplete";
     let head = format!("{PLY_HEAD}end_header\n");
     let cases: Vec<(String, Format, String)> = vec![
         ("v 0 0 0\n\nf 1 1 9\n".into(), obj, "line 3: face 0, corner 2: index 9 is past the last vertex (1)".to_string()),
@@ -85,7 +84,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
 }
 
 fn stl_cases() -> Vec<(Vec<u8>, String)> {
-    let cut = "Fetch or export it again: it is incomplete";
+    let cut = "Fetch it again or re-export it: it is incomplete";
     let facet =
         "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet";
     let text = |text: String, expected: &str| (text.into_bytes(), expected.to_owned());
@@ -107,7 +106,7 @@ fn stl_cases() -> Vec<(Vec<u8>, String)> {
         text(format!("solid\n{facet}\nsolid\n"), "line 3: \"solid\" where \"facet\" or \"endsolid\" should stand"),
         text(format!("solid\n{}", facet.replace("endloop", "vertex")), "line 2: \"vertex\" where \"endloop\" of facet 0 should stand"),
         text(format!("solid\n{}", facet.replace("vertex 1 0 0", "vertex 1 zero 0")), "line 2: facet 0, corner 1: \"zero\" is not a coordinate: write a number"),
-        text(format!("solid\n{}", facet.replace("normal 0 0 1", "normal 0 0 ü")), "line 2: facet 0: \"ü\" is no part of a normal: write a number"),
+        text(format!("solid\n{}", facet.replace("normal 0 0 1", "normal 0 0 ü")), "line 2: facet 0: \"ü\" is not part of a normal: write a number"),
     ]
 }
 

@@ -1,39 +1,20 @@
 //! Files that are broken, cut or spoilt: exact errors, and no harm done.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use meshweft::Limits;
-use meshweft::files::{Document, FileError, FileErrorKind, Format};
+use meshweft::files::Format;
 
+use super::errors::error_of;
 use super::{BINDINGS, NAME, Random, SHARING, face_set, round_trip};
 
-fn error_within(text: &[u8], limits: &Limits) -> String {
-    match Document::from_bytes(text.to_vec(), Format::Vrml, Path::new(NAME), *limits) {
-        Ok(_) => panic!("{:?} was read", String::from_utf8_lossy(text)),
-        Err(error) => message(&error),
-    }
-}
-
-/// The message without the advice that is the same for all of its kind, which must be there.
-fn message(error: &FileError) -> String {
-    let advice = match error.kind {
-        FileErrorKind::Malformed { .. } => " Mend it there, or export the file again",
-        FileErrorKind::OverLimit { .. } => " Split the file, or allow more",
-        _ => return error.to_string(),
-    };
-    let text = error.to_string();
-    let text = text.strip_suffix(advice).expect("advice");
-    text.strip_suffix('.').unwrap_or(text).to_owned()
-}
-
 fn error(text: &str) -> String {
-    error_within(text.as_bytes(), &Limits::default())
+    error_of(text.as_bytes(), NAME, Limits::default())
 }
 
 #[test]
 fn a_broken_file_says_what_where_and_what_to_do() {
-    let cut = "Fetch or export it again: it is incomplete";
+    let cut = "Fetch it again or re-export it: it is incomplete";
     let headers = [
         (
             "",
@@ -145,7 +126,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ),
         (
             "Shape { geometry DEF {".into(),
-            "line 2: no name behind DEF".into(),
+            "line 2: no name after DEF".into(),
         ),
         (
             "Shape { geometry USE".into(),
@@ -179,10 +160,10 @@ fn limits_are_kept() {
     let mut limits = Limits::default();
     limits.faces = 1;
     let text = face_set("", "");
-    let found = error_within(text.as_bytes(), &limits);
+    let found = error_of(text.as_bytes(), NAME, limits);
     assert_eq!(found, "mesh.wrl: line 4: 2 faces: more than the limit of 1");
     limits.vertices = 2;
-    let found = error_within(text.as_bytes(), &limits);
+    let found = error_of(text.as_bytes(), NAME, limits);
     assert_eq!(
         found,
         "mesh.wrl: line 3: 3 vertices: more than the limit of 2"

@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 
 use super::buffers::Buffers;
-use super::json::{Object, Value, malformed};
-use super::records::Records;
+use super::json::Value;
+use super::object::{Object, malformed};
+use super::strided_records::StridedRecords;
 use crate::files::error::Problem;
 
 /// An accessor, its bounds checked.
@@ -15,12 +16,12 @@ pub(super) struct Accessor {
     /// The bytes of one element.
     pub(super) size: usize,
     /// Its records; `None` where it has none and stands for zeros.
-    pub(super) records: Option<Records>,
+    pub(super) records: Option<StridedRecords>,
     pub(super) component: usize,
     pub(super) shape: Shape,
     pub(super) count: usize,
     pub(super) is_sparse: bool,
-    /// Its buffer view is compressed: the bytes are no records.
+    /// Its buffer view is compressed: the bytes are not records.
     pub(super) is_compressed: bool,
     /// The JSON states its smallest and largest values.
     pub(super) is_bounded: bool,
@@ -33,6 +34,12 @@ pub(super) struct Accessor {
 }
 
 impl Accessor {
+    /// Whether its elements can be vertex numbers.
+    pub(super) fn is_index_type(&self) -> bool {
+        self.shape == Shape::SCALAR
+            && [UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT].contains(&self.component)
+    }
+
     fn add_unknown(&mut self, extension: Option<String>) {
         self.unknown_extension = self.unknown_extension.take().or(extension);
     }
@@ -140,7 +147,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// The bytes that hold these records.
-    pub(super) fn bytes(&self, records: &Records) -> &'a [u8] {
+    pub(super) fn bytes(&self, records: &StridedRecords) -> &'a [u8] {
         &self.buffers.storages[records.storage].bytes
     }
 
@@ -246,7 +253,7 @@ impl<'a> Accessors<'a> {
                 accessor.count
             )));
         }
-        accessor.records = Some(Records {
+        accessor.records = Some(StridedRecords {
             storage,
             start: view_start + offset,
             count: accessor.count,
@@ -282,12 +289,12 @@ impl<'a> Accessors<'a> {
 
     /// The bytes of a buffer view (or of a compressed one's source) from `offset` on, `length` or
     /// all of them, as far as they are there: for what is only kept out of the way.
-    pub(super) fn claimed_bytes(
+    pub(super) fn bytes_of_view(
         &self,
         view: Value<'_>,
         offset: usize,
         length: Option<usize>,
-    ) -> Option<Records> {
+    ) -> Option<StridedRecords> {
         let field = |name: &str| view.get(name).and_then(Value::whole);
         let storage = self.buffers.find(field("buffer")?)?;
         let stored = self.buffers.storages[storage].bytes.len();
@@ -296,7 +303,7 @@ impl<'a> Accessors<'a> {
         let start = view_start.saturating_add(offset).min(stored);
         let size = view_end.min(stored).saturating_sub(start);
         let size = length.map_or(size, |length| length.min(size));
-        Some(Records {
+        Some(StridedRecords {
             storage,
             start,
             count: usize::from(size > 0),

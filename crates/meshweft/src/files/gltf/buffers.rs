@@ -5,10 +5,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::base64;
-use super::json::{Object, malformed};
-use crate::files::ReadOptions;
-use crate::files::document::read_limited;
+use super::object::{Object, malformed};
+use crate::files::disk::{Stored, read_limited};
 use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::options::ReadOptions;
 use crate::limits::Limits;
 
 /// Bytes that one or more buffers of the JSON stand for.
@@ -39,7 +39,7 @@ pub(super) enum Source {
 
 /// Why a buffer has no bytes; a problem only if something needs them.
 #[derive(Debug, Clone)]
-enum Loss {
+enum Missing {
     NoUri,
     BadUri(String),
     Unreadable(io::ErrorKind, String),
@@ -57,9 +57,11 @@ pub(super) struct Buffers {
     /// The storage of each buffer of the JSON that has one.
     of_buffer: BTreeMap<usize, usize>,
     /// Why others have none, if they name something.
-    losses: BTreeMap<usize, Loss>,
+    missing: BTreeMap<usize, Missing>,
     /// How many buffers there are.
     count: usize,
+    /// The size on the disk of all files that were read.
+    pub(super) read_size: u64,
 }
 
 impl Buffers {
@@ -80,7 +82,7 @@ impl Buffers {
                 None if number == 0 && binary.is_some() => {
                     Ok(buffers.store(Source::Binary, binary.take().unwrap_or_default()))
                 }
-                None => Err(Loss::NoUri),
+                None => Err(Missing::NoUri),
                 Some(uri) if starts_with_ignoring_case(uri, "data:") => {
                     decode_data(uri).map(|(prefix, bytes)| {
                         let prefix = prefix.to_owned();
@@ -98,8 +100,9 @@ impl Buffers {
                     external
                         .entry(relative.clone())
                         .or_insert_with(|| {
-                            let bytes = read_beside(path, &relative, limits)?;
-                            Ok(buffers.store(Source::External(relative), bytes))
+                            let stored = read_beside(path, &relative, limits)?;
+                            buffers.read_size += stored.size;
+                            Ok(buffers.store(Source::External(relative), stored.bytes))
                         })
                         .clone()
                 }),
@@ -108,8 +111,8 @@ impl Buffers {
             match storage {
                 Ok(storage) => drop(buffers.of_buffer.insert(number, storage)),
                 // Nothing to remember: there may be very many of these.
-                Err(Loss::NoUri) => {}
-                Err(loss) => drop(buffers.losses.insert(number, loss)),
+                Err(Missing::NoUri) => {}
+                Err(missing) => drop(buffers.missing.insert(number, missing)),
             }
         }
         for storage in &mut buffers.storages {
@@ -149,9 +152,9 @@ impl Buffers {
             return Ok(storage);
         }
         let count = self.count;
-        match self.losses.get(&buffer) {
-            Some(loss) => Err(loss.problem(buffer)),
-            None if buffer < count => Err(Loss::NoUri.problem(buffer)),
+        match self.missing.get(&buffer) {
+            Some(missing) => Err(missing.problem(buffer)),
+            None if buffer < count => Err(Missing::NoUri.problem(buffer)),
             None => Err(malformed(
                 user,
                 format!("there is no buffer {buffer}: the file has {count}"),
@@ -166,8 +169,8 @@ impl Buffers {
 
     /// The external buffers that could not be read, and why.
     pub(super) fn unreadable(&self) -> impl Iterator<Item = (usize, String)> {
-        let lost = self.losses.iter();
-        lost.map(|(&buffer, loss)| (buffer, loss.problem(buffer).kind.to_string()))
+        let lost = self.missing.iter();
+        lost.map(|(&buffer, missing)| (buffer, missing.problem(buffer).kind.to_string()))
     }
 
     /// The buffers that stand for this storage.
@@ -192,7 +195,7 @@ impl Buffers {
     }
 }
 
-impl Loss {
+impl Missing {
     fn problem(&self, buffer: usize) -> Problem {
         let pointer = format!("/buffers/{buffer}/uri");
         match self {
@@ -227,23 +230,25 @@ pub(super) fn external_paths(root: &Object, path: &Path) -> Result<Vec<PathBuf>,
     Ok(paths)
 }
 
-fn read_beside(path: &Path, relative: &Path, limits: &Limits) -> Result<Vec<u8>, Loss> {
+fn read_beside(path: &Path, relative: &Path, limits: &Limits) -> Result<Stored, Missing> {
     let beside = path.with_file_name(relative);
     read_limited(&beside, limits).map_err(|kind| match kind {
-        FileErrorKind::Io(error) => Loss::Unreadable(
+        FileErrorKind::Io(error) => Missing::Unreadable(
             error.kind(),
             format!(
                 "{} cannot be read ({error}). Put it beside the glTF",
                 relative.display()
             ),
         ),
-        FileErrorKind::OverLimit { what, found, limit } => Loss::OverLimit { what, found, limit },
-        other => Loss::BadUri(other.to_string()),
+        FileErrorKind::OverLimit { what, found, limit } => {
+            Missing::OverLimit { what, found, limit }
+        }
+        other => Missing::BadUri(other.to_string()),
     })
 }
 
-fn decode_data(uri: &str) -> Result<(&str, Vec<u8>), Loss> {
-    let bad = |text: String| Err(Loss::BadUri(text));
+fn decode_data(uri: &str) -> Result<(&str, Vec<u8>), Missing> {
+    let bad = |text: String| Err(Missing::BadUri(text));
     let Some(comma) = uri.find(',') else {
         return bad("a data: URI needs a comma before its data".into());
     };
@@ -261,14 +266,14 @@ fn decode_data(uri: &str) -> Result<(&str, Vec<u8>), Loss> {
 }
 
 /// The path that a URI names, if it is one that stays below the folder of the glTF.
-fn relative_path(uri: &str) -> Result<PathBuf, Loss> {
+fn relative_path(uri: &str) -> Result<PathBuf, Missing> {
     let bad = |why: &str| {
-        Err(Loss::BadUri(format!(
+        Err(Missing::BadUri(format!(
             "{uri:?} {why}: only files in the folder of the glTF or below are read"
         )))
     };
     let Some(decoded) = percent_decoded(uri) else {
-        return bad("is no UTF-8 text when decoded");
+        return bad("is not UTF-8 text when decoded");
     };
     if decoded.starts_with('/') {
         return bad("is an absolute path");

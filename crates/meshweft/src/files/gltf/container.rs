@@ -36,7 +36,7 @@ impl Container {
         word(start, 12).map_or(0, |length| length as u64 + 20)
     }
 
-    /// The start of a `.glb`, with its JSON and perhaps nothing behind.
+    /// The start of a `.glb`, with its JSON and perhaps nothing after it.
     pub(super) fn of_start(bytes: Vec<u8>) -> Result<Self, Problem> {
         let end = usize::try_from(Self::json_end(&bytes)).unwrap_or(usize::MAX);
         if !bytes.starts_with(b"glTF") || end < 20 || end > bytes.len() {
@@ -68,7 +68,7 @@ impl Container {
         }
         let version = word(&bytes, 4).unwrap_or_default();
         if version != 2 {
-            let feature = format!("GLB version {version}: only version 2 is read, export it anew");
+            let feature = format!("GLB version {version}: only version 2 is read, re-export it");
             return at(FileErrorKind::unsupported(feature), 4);
         }
         let length = word(&bytes, 8).unwrap_or_default();
@@ -119,7 +119,7 @@ type Chunk = ([u8; 4], Range<usize>);
 
 /// The chunk at `start`, or `None` at the end of the file.
 fn chunk(bytes: &[u8], start: usize, length: usize) -> Result<Option<Chunk>, Problem> {
-    // Fewer than four bytes can be nothing but padding behind an unaligned chunk.
+    // Fewer than four bytes can be nothing but padding after an unaligned chunk.
     if length.saturating_sub(start) < 4 {
         return Ok(None);
     }

@@ -1,18 +1,20 @@
-//! The meshes that a file offers, and the records behind each.
+//! The meshes that a file offers, and the records of each.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::buffers::Buffers;
-use super::claims::Claims;
-use super::groups::{group_numbers, vertex_pin};
-use super::json::malformed;
+use super::byte_users::ByteUsers;
+use super::groups::{group_numbers, vertex_obstacle};
+use super::movable::{IndexList, Movable, PrimitiveNumber};
+use super::object::malformed;
+use super::obstacles::VertexObstacle;
 use super::patch;
-use super::primitives::{Draft, IndexList, Pin, Position, Primitives};
-use super::records::Records;
+use super::primitives::Primitives;
 use super::sparse::Sparse;
+use super::strided_records::StridedRecords;
 use crate::Mesh;
 use crate::error::MeshError;
-use crate::files::MeshEntry;
+use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::limits::index32;
 use crate::permutation::{Permutation, VertexOrder};
@@ -21,18 +23,18 @@ use crate::permutation::{Permutation, VertexOrder};
 #[derive(Debug)]
 pub(super) enum Corners {
     /// A list of vertex numbers.
-    Indices(Records),
+    Indices(StridedRecords),
     /// The vertices themselves, three a face, in each of these.
-    Triples(Vec<Records>),
+    Triples(Vec<StridedRecords>),
 }
 
 /// What one vertex order moves.
 #[derive(Debug, Default)]
 pub(super) struct Group {
     /// Attributes and morph targets.
-    pub(super) vertices: Vec<Records>,
+    pub(super) vertices: Vec<StridedRecords>,
     /// Lists of vertex numbers other than the faces.
-    pub(super) outlines: Vec<Records>,
+    pub(super) outlines: Vec<StridedRecords>,
     /// Sparse elements, sorted.
     pub(super) sparse: Vec<Sparse>,
     pub(super) meshes: Vec<usize>,
@@ -48,38 +50,39 @@ pub(super) struct Entries {
     /// The largest index of each mesh as it was read.
     largest_index: Vec<Option<u32>>,
     /// Why the vertices of a group stay, and the primitive that comes with it.
-    pub(super) pins: Vec<(Position, Pin)>,
+    pub(super) vertex_obstacles: Vec<(PrimitiveNumber, VertexObstacle)>,
 }
 
 impl Entries {
-    /// Decodes the faces of every draft and decides which vertices may move.
+    /// Decodes the faces of every primitive and decides which vertices may move.
     pub(super) fn new(
         primitives: &Primitives,
-        claims: &Claims,
+        byte_users: &ByteUsers,
         buffers: &Buffers,
     ) -> Result<Self, Problem> {
-        let drafts = primitives.drafts.as_slice();
-        let group_of = group_numbers(drafts, claims);
+        let movable = primitives.movable.as_slice();
+        let group_of = group_numbers(movable, byte_users);
         let group_count = group_of.iter().max().map_or(0, |&last| last + 1);
         let mut entries = Self::default();
         entries.groups.resize_with(group_count, Group::default);
         let mut first_of_group = vec![None; group_count];
-        let mut pins: Vec<Option<(Position, Pin)>> = vec![None; group_count];
+        let mut obstacles: Vec<Option<(PrimitiveNumber, VertexObstacle)>> = vec![None; group_count];
         let mut entry_of = BTreeMap::new();
         let mut looked_through = BTreeSet::new();
         // Copies of positions take no more memory than the file, however often they are shared.
         let mut spare_positions = buffers.byte_count() / size_of::<[f32; 3]>();
 
-        for (draft, &group) in drafts.iter().zip(&group_of) {
-            let count = *first_of_group[group].get_or_insert(draft.vertex_count);
-            if pins[group].is_none() && draft.indices.is_some() {
-                pins[group] = vertex_pin(draft, count, claims).map(|pin| (draft.position, pin));
+        for (primitive, &group) in movable.iter().zip(&group_of) {
+            let count = *first_of_group[group].get_or_insert(primitive.vertex_count);
+            if obstacles[group].is_none() && primitive.indices.is_some() {
+                obstacles[group] = vertex_obstacle(primitive, count, byte_users)
+                    .map(|obstacle| (primitive.number, obstacle));
             }
-            let key = match &draft.indices {
+            let key = match &primitive.indices {
                 Some(list) => list.records,
-                // Every draft has a POSITION with records, and those without indices that share
+                // Every primitive has a POSITION with records, and those without indices that share
                 // one share all their data.
-                None => match draft.vertices.first() {
+                None => match primitive.vertices.first() {
                     Some(&records) => records,
                     None => continue,
                 },
@@ -88,34 +91,34 @@ impl Entries {
                 Some(&entry) => entry,
                 None => {
                     let entry = entries.meshes.len();
-                    let name = primitives.name(draft.position);
-                    entries.add(draft, name, group, buffers, &mut spare_positions)?;
+                    let name = primitives.name(primitive.number);
+                    entries.add(primitive, name, group, buffers, &mut spare_positions)?;
                     entry_of.insert(key, entry);
                     entry
                 }
             };
-            if entries.largest_index[entry] >= Some(index32(draft.vertex_count)) {
-                check_range(entries.meshes[entry].mesh.faces().as_flattened(), draft)?;
+            if entries.largest_index[entry] >= Some(index32(primitive.vertex_count)) {
+                check_range(entries.meshes[entry].mesh.faces().as_flattened(), primitive)?;
             }
-            if pins[group].is_none() {
+            if obstacles[group].is_none() {
                 // A list is looked through once for its group, however many primitives share it.
-                pins[group] = draft
+                obstacles[group] = primitive
                     .lists()
                     .filter(|list| looked_through.insert((list.records, list.is_bounded)))
-                    .find_map(|list| list_pin(list, draft, buffers))
-                    .map(|pin| (draft.position, pin));
+                    .find_map(|list| list_obstacle(list, primitive, buffers))
+                    .map(|obstacle| (primitive.number, obstacle));
             }
             let target = &mut entries.groups[group];
-            target.sparse.extend(draft.sparse());
+            target.sparse.extend(primitive.sparse());
             target
                 .outlines
-                .extend(draft.outline().map(|list| list.records));
+                .extend(primitive.outline().map(|list| list.records));
         }
-        // A stream that drafts read is read by drafts of one group.
-        for stream in &claims.streams {
-            if let Some(&user) = stream.vertex_users.first() {
+        // A used that movable read is read by movable of one group.
+        for used in &byte_users.used {
+            if let Some(&user) = used.vertex_users.first() {
                 let group = &mut entries.groups[group_of[user]];
-                group.vertices.push(stream.records);
+                group.vertices.push(used.records);
             }
         }
         for group in &mut entries.groups {
@@ -128,38 +131,43 @@ impl Entries {
             group.sparse.dedup();
         }
         for entry in &mut entries.meshes {
-            entry.vertices_movable &= pins[entry.vertex_group].is_none();
+            entry.vertices_movable &= obstacles[entry.vertex_group].is_none();
         }
-        entries.pins = pins.into_iter().flatten().collect();
+        entries.vertex_obstacles = obstacles.into_iter().flatten().collect();
         Ok(entries)
     }
 
     fn add(
         &mut self,
-        draft: &Draft,
+        primitive: &Movable,
         name: String,
         group: usize,
         buffers: &Buffers,
         spare_positions: &mut usize,
     ) -> Result<(), Problem> {
-        let at_draft = |error: MeshError| {
-            FileErrorKind::Order(error).at(Place::Json(draft.position.pointer()))
+        let at_primitive = |error: MeshError| {
+            FileErrorKind::Order(error).at(Place::Json(primitive.number.pointer()))
         };
-        let faces = match &draft.indices {
+        let faces = match &primitive.indices {
             Some(list) => {
                 let storage = &buffers.storages[list.records.storage];
                 let faces = patch::faces(&storage.bytes, &list.records);
-                check_restart(faces.as_flattened(), list, draft)?;
-                check_range(faces.as_flattened(), draft)?;
+                check_restart(faces.as_flattened(), list, primitive)?;
+                check_range(faces.as_flattened(), primitive)?;
                 faces
             }
             None => {
-                let count = index32(draft.vertex_count / 3);
+                let count = index32(primitive.vertex_count / 3);
                 (0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect()
             }
         };
-        let positions = draft.positions.map(|place| draft.vertices[place as usize]);
-        let sparse = draft.rare.as_ref().and_then(|rare| rare.sparse_positions);
+        let positions = primitive
+            .positions
+            .map(|place| primitive.vertices[place as usize]);
+        let sparse = primitive
+            .uncommon
+            .as_ref()
+            .and_then(|uncommon| uncommon.sparse_positions);
         let positions = positions.filter(|positions| positions.count <= *spare_positions);
         let mesh = match positions {
             Some(records) => {
@@ -171,9 +179,9 @@ impl Entries {
                         positions[number as usize] = floats(value);
                     }
                 }
-                Mesh::new(positions, faces).map_err(at_draft)?
+                Mesh::new(positions, faces).map_err(at_primitive)?
             }
-            None => Mesh::connectivity_only(draft.vertex_count, faces).map_err(at_draft)?,
+            None => Mesh::connectivity_only(primitive.vertex_count, faces).map_err(at_primitive)?,
         };
         let largest = mesh.faces().as_flattened().iter().max();
         self.largest_index.push(largest.copied());
@@ -188,12 +196,12 @@ impl Entries {
             mesh,
             polygons: None,
             vertex_group: group,
-            vertices_movable: draft.indices.is_some(),
+            vertices_movable: primitive.indices.is_some(),
             corners_turnable: true,
         });
-        self.corners.push(match &draft.indices {
+        self.corners.push(match &primitive.indices {
             Some(list) => Corners::Indices(list.records),
-            None => Corners::Triples(draft.vertices.to_vec()),
+            None => Corners::Triples(primitive.vertices.to_vec()),
         });
         Ok(())
     }
@@ -216,14 +224,14 @@ fn floats(record: &[u8]) -> [f32; 3] {
     [0, 1, 2].map(|i| words.get(i).map_or(0.0, |word| f32::from_le_bytes(*word)))
 }
 
-/// The largest value of an index type restarts a strip; in a triangle list it is no vertex.
-fn check_restart(numbers: &[u32], list: &IndexList, draft: &Draft) -> Result<(), Problem> {
+/// The largest value of an index type restarts a strip; in a triangle list it is not a vertex.
+fn check_restart(numbers: &[u32], list: &IndexList, primitive: &Movable) -> Result<(), Problem> {
     let restart = u32::MAX >> (32 - 8 * list.records.size);
     match numbers.contains(&restart) {
         true => Err(malformed(
-            draft.position.pointer(),
+            primitive.number.pointer(),
             format!(
-                "index {restart} restarts a strip and is no vertex: store the indices in a wider \
+                "index {restart} restarts a strip and is not a vertex: store the indices in a wider \
                  type"
             ),
         )),
@@ -231,11 +239,11 @@ fn check_restart(numbers: &[u32], list: &IndexList, draft: &Draft) -> Result<(),
     }
 }
 
-fn check_range(numbers: &[u32], draft: &Draft) -> Result<(), Problem> {
-    let count = draft.vertex_count;
+fn check_range(numbers: &[u32], primitive: &Movable) -> Result<(), Problem> {
+    let count = primitive.vertex_count;
     match numbers.iter().find(|&&number| number as usize >= count) {
         Some(number) => Err(malformed(
-            draft.position.pointer(),
+            primitive.number.pointer(),
             match count.checked_sub(1) {
                 Some(last) => format!("index {number} is past the last vertex ({last})"),
                 None => format!("index {number}, but there are no vertices"),
@@ -246,35 +254,42 @@ fn check_range(numbers: &[u32], draft: &Draft) -> Result<(), Problem> {
 }
 
 /// Why a vertex order cannot renumber this list, if so.
-fn list_pin(list: &IndexList, draft: &Draft, buffers: &Buffers) -> Option<Pin> {
+fn list_obstacle(
+    list: &IndexList,
+    primitive: &Movable,
+    buffers: &Buffers,
+) -> Option<VertexObstacle> {
     let bytes = &buffers.storages[list.records.storage].bytes;
-    let pin = |why: &str| {
-        Some(Pin {
+    let obstacle = |why: &str| {
+        Some(VertexObstacle {
             pointer: list.pointer.clone(),
             why: why.to_owned(),
         })
     };
-    let is_outline = draft
+    let is_outline = primitive
         .outline()
         .is_some_and(|outline| outline.records == list.records);
     if is_outline {
         let numbers = patch::numbers(bytes, &list.records);
         let most = u32::MAX >> (32 - 8 * list.records.size);
-        if draft.vertex_count > most as usize {
-            return pin("the numbers of the outline do not reach all of them");
+        if primitive.vertex_count > most as usize {
+            return obstacle("the numbers of the outline do not reach all of them");
         }
-        if numbers.iter().any(|&n| n as usize >= draft.vertex_count) {
-            return pin("the outline names vertices that are not there");
+        if numbers
+            .iter()
+            .any(|&n| n as usize >= primitive.vertex_count)
+        {
+            return obstacle("the outline names vertices that are not there");
         }
     }
     // If every vertex is named, the smallest and the largest number stay what they are.
-    if list.is_bounded && !names_all(bytes, &list.records, draft.vertex_count) {
-        return pin("the JSON states the smallest and largest index, and they would change");
+    if list.is_bounded && !names_all(bytes, &list.records, primitive.vertex_count) {
+        return obstacle("the JSON states the smallest and largest index, and they would change");
     }
     None
 }
 
-fn names_all(bytes: &[u8], records: &Records, vertex_count: usize) -> bool {
+fn names_all(bytes: &[u8], records: &StridedRecords, vertex_count: usize) -> bool {
     if records.count < vertex_count {
         return false;
     }

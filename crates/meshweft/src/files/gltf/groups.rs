@@ -2,90 +2,46 @@
 
 use std::collections::BTreeMap;
 
-use super::claims::Claims;
-use super::primitives::{Draft, Left, Pin, Primitives};
+use super::byte_users::ByteUsers;
+use super::movable::{Movable, Staying};
+use super::obstacles::VertexObstacle;
+use super::primitives::Primitives;
+use super::strided_records::StridedRecords;
 
-/// A number for each set of streams, so that sets are compared once.
+/// A number for each set of vertex records, so that sets are compared once.
 type SetNumber = usize;
 
-/// Which primitives read a stream as their vertices.
+/// Which primitives read some records as their vertices.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Readers {
+enum VertexReaders {
     None,
     /// Only primitives without indices, all with this same set of vertices.
     Triples(SetNumber),
     Mixed,
 }
 
-/// Moves the drafts whose faces cannot be re-ordered on their own to `left`.
-///
-/// One that stays reads its data in the old order, so those who share it must stay as well: the
-/// reasons spread until nothing changes.
+/// Makes those primitives stay whose faces cannot be re-ordered on their own.
 ///
 /// # Complexity
-/// Time O(n log n) in the accessors that primitives name: each stream is taken once at most.
-pub(super) fn leave_entangled(primitives: &mut Primitives, claims: &mut Claims) {
-    let drafts = &primitives.drafts;
-    let sets = set_numbers(drafts);
-    let mut readers = vec![Readers::None; claims.streams.len()];
-    for (stream, readers) in claims.streams.iter().zip(&mut readers) {
-        for &user in &stream.vertex_users {
-            let one = match drafts[user].indices {
-                None => Readers::Triples(sets[user]),
-                Some(_) => Readers::Mixed,
-            };
-            *readers = match *readers {
-                Readers::None => one,
-                same if same == one => one,
-                _ => Readers::Mixed,
-            };
-        }
-    }
-    let mut reasons: Vec<Option<String>> = vec![None; drafts.len()];
-    let mut to_check: Vec<usize> = (0..drafts.len()).rev().collect();
-    while let Some(user) = to_check.pop() {
-        if reasons[user].is_some() {
-            continue;
-        }
-        let draft = &drafts[user];
-        reasons[user] = match &draft.indices {
-            Some(_) => entangled_indices(draft, claims),
-            None => entangled_triples(draft, claims, &readers),
-        };
-        if reasons[user].is_none() {
-            continue;
-        }
-        let sparse = draft.sparse().iter().flat_map(|s| [&s.indices, &s.values]);
-        let lists = draft.lists().map(|list| &list.records);
-        let records = lists.chain(&draft.vertices);
-        let records = records.chain(sparse);
-        for records in records {
-            let Some(position) = claims.position(records) else {
-                continue;
-            };
-            let stream = &mut claims.streams[position];
-            if stream.taken_by.is_none() {
-                stream.taken_by = Some(draft.position.pointer());
-                to_check.extend(stream.users());
-            }
-        }
-    }
+/// Time O(n log n) in the accessors that primitives name: records are taken once at most.
+pub(super) fn keep_entangled(primitives: &mut Primitives, byte_users: &mut ByteUsers) {
+    let reasons = entangled(&primitives.movable, byte_users);
     if reasons.iter().all(Option::is_none) {
         return;
     }
-    // The numbers of the drafts that stay drafts change, so those of the users do too.
+
+    // Those that can still move get other numbers, and so do they where they are users.
     let mut new_number = vec![None; reasons.len()];
-    let mut kept = 0;
+    let (mut old, mut kept) = (0, 0);
     let mut reasons = reasons.into_iter();
-    let left = &mut primitives.left;
-    let mut old = 0;
-    primitives.drafts.retain_mut(|draft| {
+    let staying = &mut primitives.staying;
+    primitives.movable.retain_mut(|primitive| {
         let reason = reasons.next().flatten();
         match reason {
-            Some(why) => left.push(Left {
-                position: draft.position,
+            Some(why) => staying.push(Staying {
+                number: primitive.number,
                 why: why.into(),
-                accessors: std::mem::take(&mut draft.accessors),
+                accessors: std::mem::take(&mut primitive.accessors),
             }),
             None => {
                 new_number[old] = Some(kept);
@@ -95,48 +51,117 @@ pub(super) fn leave_entangled(primitives: &mut Primitives, claims: &mut Claims) 
         old += 1;
         new_number[old - 1].is_some()
     });
-    for stream in &mut claims.streams {
-        stream.renumber_users(&new_number);
+    for used in &mut byte_users.used {
+        used.renumber_users(&new_number);
     }
 }
 
-fn entangled_indices(draft: &Draft, claims: &Claims) -> Option<String> {
-    let position = claims.position(&draft.indices.as_ref()?.records)?;
-    let stream = &claims.streams[position];
-    if let Some(by) = &stream.taken_by {
+/// Of each primitive, why its faces cannot be re-ordered, if so.
+///
+/// One that stays reads its data in the old order, so those who share it must stay as well: the
+/// reasons spread until nothing changes.
+fn entangled(movable: &[Movable], byte_users: &mut ByteUsers) -> Vec<Option<String>> {
+    let readers = vertex_readers(movable, byte_users);
+    let mut reasons: Vec<Option<String>> = vec![None; movable.len()];
+    let mut to_check: Vec<usize> = (0..movable.len()).rev().collect();
+    while let Some(user) = to_check.pop() {
+        if reasons[user].is_some() {
+            continue;
+        }
+        let primitive = &movable[user];
+        reasons[user] = match &primitive.indices {
+            Some(_) => entangled_indices(primitive, byte_users),
+            None => entangled_triples(primitive, byte_users, &readers),
+        };
+        if reasons[user].is_none() {
+            continue;
+        }
+
+        // It stays, and takes all that it reads.
+        let lists = primitive.lists().map(|list| &list.records);
+        let records = lists.chain(&primitive.vertices);
+        for records in records.chain(sparse_records(primitive)) {
+            let Some(found) = byte_users.find(records) else {
+                continue;
+            };
+            let used = &mut byte_users.used[found];
+            if used.taken_by.is_none() {
+                used.taken_by = Some(primitive.number.pointer());
+                to_check.extend(used.users());
+            }
+        }
+    }
+    reasons
+}
+
+/// For all used records, which primitives read them as their vertices.
+fn vertex_readers(movable: &[Movable], byte_users: &ByteUsers) -> Vec<VertexReaders> {
+    let sets = set_numbers(movable);
+    let readers = byte_users.used.iter().map(|used| {
+        let mut readers = VertexReaders::None;
+        for &user in &used.vertex_users {
+            let one = match movable[user].indices {
+                None => VertexReaders::Triples(sets[user]),
+                Some(_) => VertexReaders::Mixed,
+            };
+            readers = match readers {
+                VertexReaders::None => one,
+                same if same == one => one,
+                _ => VertexReaders::Mixed,
+            };
+        }
+        readers
+    });
+    readers.collect()
+}
+
+fn sparse_records(primitive: &Movable) -> impl Iterator<Item = &StridedRecords> {
+    let sparse = primitive.sparse().iter();
+    sparse.flat_map(|sparse| [&sparse.indices, &sparse.values])
+}
+
+fn entangled_indices(primitive: &Movable, byte_users: &ByteUsers) -> Option<String> {
+    let found = byte_users.find(&primitive.indices.as_ref()?.records)?;
+    let used = &byte_users.used[found];
+    if let Some(by) = &used.taken_by {
         return Some(format!("its indices share bytes with {by}"));
     }
-    (!stream.is_of_one_kind()).then(|| "its indices are also read as something else".to_owned())
+    (!used.is_of_one_kind()).then(|| "its indices are also read as something else".to_owned())
 }
 
-fn entangled_triples(draft: &Draft, claims: &Claims, readers: &[Readers]) -> Option<String> {
-    for position in draft.vertices.iter().filter_map(|r| claims.position(r)) {
-        let stream = &claims.streams[position];
-        if let Some(by) = &stream.taken_by {
+fn entangled_triples(
+    primitive: &Movable,
+    byte_users: &ByteUsers,
+    readers: &[VertexReaders],
+) -> Option<String> {
+    let vertices = primitive.vertices.iter();
+    for found in vertices.filter_map(|records| byte_users.find(records)) {
+        let used = &byte_users.used[found];
+        if let Some(by) = &used.taken_by {
             return Some(format!("its vertices share bytes with {by}"));
         }
-        if !stream.is_of_one_kind() || readers[position] == Readers::Mixed {
+        if !used.is_of_one_kind() || readers[found] == VertexReaders::Mixed {
             return Some("its vertices are also read by other primitives".to_owned());
         }
     }
     None
 }
 
-fn set_numbers(drafts: &[Draft]) -> Vec<SetNumber> {
+fn set_numbers(movable: &[Movable]) -> Vec<SetNumber> {
     let mut numbers = BTreeMap::new();
-    let mut set_numbers = Vec::with_capacity(drafts.len());
-    for draft in drafts {
+    let mut set_numbers = Vec::with_capacity(movable.len());
+    for primitive in movable {
         let next = numbers.len();
-        set_numbers.push(*numbers.entry(&draft.vertices).or_insert(next));
+        set_numbers.push(*numbers.entry(&primitive.vertices).or_insert(next));
     }
     set_numbers
 }
 
-/// For each draft the number of its group: drafts that share any data, by first draft.
-pub(super) fn group_numbers(drafts: &[Draft], claims: &Claims) -> Vec<usize> {
-    let mut parents: Vec<usize> = (0..drafts.len()).collect();
-    for stream in &claims.streams {
-        let mut users = stream.users();
+/// For each primitive the number of its group: those that share any data, by the first of them.
+pub(super) fn group_numbers(movable: &[Movable], byte_users: &ByteUsers) -> Vec<usize> {
+    let mut parents: Vec<usize> = (0..movable.len()).collect();
+    for used in &byte_users.used {
+        let mut users = used.users();
         let Some(first) = users.next() else {
             continue;
         };
@@ -147,10 +172,12 @@ pub(super) fn group_numbers(drafts: &[Draft], claims: &Claims) -> Vec<usize> {
         }
     }
     let mut numbers = BTreeMap::new();
-    (0..drafts.len())
-        .map(|draft| {
+    (0..movable.len())
+        .map(|primitive| {
             let next = numbers.len();
-            *numbers.entry(root_of(&mut parents, draft)).or_insert(next)
+            *numbers
+                .entry(root_of(&mut parents, primitive))
+                .or_insert(next)
         })
         .collect()
 }
@@ -163,62 +190,67 @@ fn root_of(parents: &mut [usize], mut node: usize) -> usize {
     node
 }
 
-/// Why the vertices of an indexed draft must stay, as far as shared data tells.
-pub(super) fn vertex_pin(draft: &Draft, group_count: usize, claims: &Claims) -> Option<Pin> {
-    if let Some(pin) = draft.pin() {
-        return Some(pin.clone());
+/// Why the vertices of an indexed primitive must stay, as far as shared data tells.
+pub(super) fn vertex_obstacle(
+    primitive: &Movable,
+    group_count: usize,
+    byte_users: &ByteUsers,
+) -> Option<VertexObstacle> {
+    if let Some(obstacle) = primitive.vertex_obstacle() {
+        return Some(obstacle.clone());
     }
-    let pin = |why: String| {
-        Some(Pin {
-            pointer: draft.position.pointer(),
-            why,
-        })
-    };
-    for position in draft.vertices.iter().filter_map(|r| claims.position(r)) {
-        let stream = &claims.streams[position];
-        if let Some(by) = &stream.taken_by {
-            return pin(format!("they share bytes with {by}"));
+    let why = shared_bytes(primitive, byte_users);
+    let why = why.or_else(|| another_count(primitive, group_count));
+    why.map(|why| VertexObstacle {
+        pointer: primitive.number.pointer(),
+        why,
+    })
+}
+
+/// Why the vertices must stay, if others read the bytes of what goes by vertex.
+fn shared_bytes(primitive: &Movable, byte_users: &ByteUsers) -> Option<String> {
+    let vertices = primitive.vertices.iter();
+    let vertices = vertices.map(|records| (records, ["they share", "they are"]));
+    let sparse = sparse_records(primitive);
+    let sparse = sparse.map(|records| {
+        let subject = ["their sparse data shares", "their sparse data is"];
+        (records, subject)
+    });
+    let outline = primitive.outline().into_iter();
+    let outline = outline.map(|list| (&list.records, ["the outline shares", "the outline is"]));
+
+    for (records, [shares, is]) in vertices.chain(sparse).chain(outline) {
+        let Some(found) = byte_users.find(records) else {
+            continue;
+        };
+        let used = &byte_users.used[found];
+        if let Some(by) = &used.taken_by {
+            return Some(format!("{shares} bytes with {by}"));
         }
-        if !stream.is_of_one_kind() {
-            return pin("they are also read as something else".into());
-        }
-    }
-    let sparse = draft.sparse().iter().flat_map(|s| [&s.indices, &s.values]);
-    for position in sparse.filter_map(|records| claims.position(records)) {
-        let stream = &claims.streams[position];
-        if let Some(by) = &stream.taken_by {
-            return pin(format!("their sparse data shares bytes with {by}"));
-        }
-        if !stream.is_of_one_kind() {
-            return pin("their sparse data is also read as something else".into());
-        }
-    }
-    let outline = draft.outline().map(|list| &list.records);
-    if let Some(stream) = outline.and_then(|r| claims.position(r)) {
-        let stream = &claims.streams[stream];
-        if let Some(by) = &stream.taken_by {
-            return pin(format!("the outline shares bytes with {by}"));
-        }
-        if !stream.is_of_one_kind() {
-            return pin("the outline is also read as something else".into());
+        if !used.is_of_one_kind() {
+            return Some(format!("{is} also read as something else"));
         }
     }
-    if draft.vertex_count != group_count {
-        return pin("primitives that share data have different numbers of vertices".into());
+    None
+}
+
+/// Why the vertices must stay, if the group or the indices have room for other numbers of them.
+fn another_count(primitive: &Movable, group_count: usize) -> Option<String> {
+    if primitive.vertex_count != group_count {
+        return Some("primitives that share data have different numbers of vertices".into());
     }
-    let width = draft.indices.as_ref().map_or(4, |list| list.records.size);
-    // The largest value of each type restarts a strip, so it is no vertex.
+    let width = primitive
+        .indices
+        .as_ref()
+        .map_or(4, |list| list.records.size);
+    // The largest value of each type restarts a strip, so it is not a vertex.
     let most = match width {
         1 => usize::from(u8::MAX),
         2 => usize::from(u16::MAX),
         _ => usize::MAX,
     };
-    match draft.vertex_count > most {
-        true => pin(format!(
-            "{}-bit indices do not reach all {} of them",
-            8 * width,
-            draft.vertex_count
-        )),
-        false => None,
-    }
+    (primitive.vertex_count > most).then(|| {
+        let (bits, count) = (8 * width, primitive.vertex_count);
+        format!("{bits}-bit indices do not reach all {count} of them")
+    })
 }

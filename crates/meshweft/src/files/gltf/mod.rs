@@ -5,48 +5,72 @@
 //! `.gltf` only the text of a changed `data:` URI (or of a renamed buffer file) is replaced.
 //!
 //! Records may be moved only if all who read them agree, so everything that reads bytes is listed
-//! first ([`claims`]). Primitives that share an index accessor share their face order and are one
+//! first ([`byte_users`]). Primitives that share an index accessor share their face order and are one
 //! mesh; primitives that share any data share their vertex order and are one group ([`groups`]).
 //! What cannot be moved is left as it is, with a note that says why.
 //!
-//! Read [`container`] → [`buffers`] → [`accessors`] → [`primitives`] → [`extensions`] → [`claims`] →
-//! [`groups`] → [`entries`] → [`patch`] → [`output`].
+//! Read [`container`] → [`buffers`] → [`accessors`] → [`obstacles`] → [`movable`] → [`extensions`] →
+//! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`].
+//!
+//! | word | what it is |
+//! |---|---|
+//! | `Storage` | bytes of the file or of a buffer beside it; several buffers may stand for one |
+//! | `StridedRecords` | equal pieces of a storage at equal distances: what a permutation moves |
+//! | `Obstacles` | why a primitive stays, or only its vertices, while its JSON is read |
+//! | `VertexObstacle` | one reason why vertices stay, and where it stands |
+//! | `Movable` | a primitive that may move, as far as itself is concerned |
+//! | `Uncommon` | what few movable primitives have: sparse data, outlines, obstacles |
+//! | `Staying` | a primitive that stays as it is, and why |
+//! | `ByteUsers` | all records of the file, each (`UsedRecords`) with those who read it |
+//! | `Group` | primitives that share data, and so one vertex order |
+//! | `Entries` | the meshes that are offered, each with the records of its corners |
+//! | `Missing` | why a buffer has no bytes |
 
 mod accessors;
 mod base64;
 mod buffers;
-mod claims;
+mod byte_users;
 mod container;
 mod entries;
 mod extensions;
 mod groups;
 mod json;
+mod movable;
+mod object;
+mod obstacles;
 mod output;
 mod patch;
 mod primitives;
-mod records;
 mod sparse;
+mod strided_records;
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::document::{read_limited, read_start};
+use super::content::{Content, OutputFile, ReadResult};
+use super::disk::{read_limited, read_start};
+use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
-use super::{Content, Format, MeshEntry, Note, OutputFile, ReadOptions, ReadResult};
+use super::format::Format;
+use super::note::Note;
+use super::options::ReadOptions;
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
 use accessors::Accessors;
 use buffers::Buffers;
-use claims::Claims;
+use byte_users::ByteUsers;
 use container::Container;
 use entries::{Corners, Entries};
-use json::{Json, JsonFault, Object, Value};
+use json::{Json, JsonFault, Value};
+use movable::PrimitiveNumber;
+use object::Object;
 use output::Output;
-use primitives::{Position, Primitives};
+use primitives::Primitives;
 
 /// A glTF file whose records can be moved.
-struct Scene {
+struct GltfFile {
     source: PathBuf,
     container: Container,
     buffers: Buffers,
@@ -80,11 +104,11 @@ pub(super) fn read(
     let uri_spans = uris.filter_map(span).collect();
     let accessors = Accessors::new(&root, &buffers, &options.assume_order_safe)?;
     let mut primitives = Primitives::read(&root, &accessors, options)?;
-    let mut claims = Claims::new(&root, &accessors, &primitives);
-    groups::leave_entangled(&mut primitives, &mut claims);
-    let entries = Entries::new(&primitives, &claims, &buffers)?;
+    let mut byte_users = ByteUsers::new(&root, &accessors, &primitives);
+    groups::keep_entangled(&mut primitives, &mut byte_users);
+    let entries = Entries::new(&primitives, &byte_users, &buffers)?;
     let notes = notes(&root, &primitives, &entries, &buffers);
-    let scene = Scene {
+    let scene = GltfFile {
         source: path.to_owned(),
         container,
         buffers,
@@ -97,7 +121,7 @@ pub(super) fn read(
 fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, Problem> {
     let text = &container.head[container.json.clone()];
     Json::read(text, limits).map_err(|fault| {
-        // Text behind nothing has its place in the message.
+        // A .gltf has no header: the parser's own line and column are already in the message.
         let place = match container.json.start {
             0..=3 => Place::File,
             start => Place::Byte(start),
@@ -118,14 +142,14 @@ fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, 
 /// [`ReadOptions::keep_buffers`](super::ReadOptions::keep_buffers).
 ///
 /// # Errors
-/// [`FileError`]: the file cannot be read, is no glTF, or its JSON is not sound.
+/// [`FileError`]: the file cannot be read, is not a glTF, or its JSON is not sound.
 pub fn external_buffers(path: &Path, limits: &Limits) -> Result<Vec<PathBuf>, FileError> {
     let format = Format::of_path(path);
     let read = || {
         let bytes = match format {
             // The binary chunk of a GLB may be large, and is of no use here.
             Some(Format::Glb) => read_start(path, limits, Container::json_end),
-            _ => read_limited(path, limits),
+            _ => read_limited(path, limits).map(|stored| stored.bytes),
         };
         let bytes = bytes.map_err(|kind| kind.at(Place::File))?;
         let container = match format {
@@ -144,12 +168,36 @@ fn check_version(root: &Object) -> Result<(), Problem> {
     };
     match asset.text("version")? {
         Some(version) if !version.starts_with("2.") => {
-            let feature = format!("glTF version {version}: only version 2 is read, export it anew");
+            let feature = format!("glTF version {version}: only version 2 is read, re-export it");
             let place = Place::Json(asset.pointer_to("version"));
             Err(FileErrorKind::unsupported(feature).at(place))
         }
         _ => Ok(()),
     }
+}
+
+/// Why something stays as it is.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+enum Reason<'a> {
+    OfPrimitive(&'a str),
+    OfVertices(&'a str),
+}
+
+impl Reason<'_> {
+    fn note(self, place: Place) -> Note {
+        match self {
+            Self::OfPrimitive(why) => Note::new(place, format!("left as it is: {why}")),
+            Self::OfVertices(why) => Note::vertices_stay(place, why),
+        }
+    }
+}
+
+/// The first primitive that a reason holds for, and how many there are.
+struct First<'a> {
+    number: PrimitiveNumber,
+    /// What in the primitive it is, if not all of it.
+    pointer: Option<&'a str>,
+    count: usize,
 }
 
 /// What is left as it is, in the order of the file.
@@ -160,31 +208,38 @@ fn notes(
     buffers: &Buffers,
 ) -> Vec<Note> {
     // One note for each reason, at the first place: a reason may hold for very many.
-    type Reason<'a> = (&'static str, &'a str);
-    let mut firsts: BTreeMap<Reason<'_>, (Position, Option<&str>, usize)> = BTreeMap::new();
-    let left = primitives.left.iter();
-    let left = left.map(|left| (("left as it is", &*left.why), left.position, None));
-    let pinned = entries.pins.iter().map(|(position, pin)| {
-        let reason = ("the vertices stay where they are", pin.why.as_str());
-        (reason, *position, Some(pin.pointer.as_str()))
+    let mut firsts: BTreeMap<Reason<'_>, First<'_>> = BTreeMap::new();
+    let staying = primitives.staying.iter();
+    let staying = staying.map(|staying| (Reason::OfPrimitive(&staying.why), staying.number, None));
+    let obstacles = entries.vertex_obstacles.iter();
+    let obstacles = obstacles.map(|(number, obstacle)| {
+        let reason = Reason::OfVertices(&obstacle.why);
+        (reason, *number, Some(obstacle.pointer.as_str()))
     });
-    for (reason, position, pointer) in left.chain(pinned) {
-        let first = firsts.entry(reason).or_insert((position, pointer, 0));
-        if position < first.0 {
-            (first.0, first.1) = (position, pointer);
-        }
-        first.2 += 1;
-    }
-    let mut firsts: Vec<_> = firsts.into_iter().collect();
-    firsts.sort_by_key(|(_, (position, ..))| *position);
-    let notes = firsts
-        .into_iter()
-        .map(|((what, why), (position, pointer, count))| Note {
-            place: Place::Json(pointer.map_or_else(|| position.pointer(), str::to_owned)),
-            text: format!("{what}: {why}"),
-            more: count - 1,
+    for (reason, number, pointer) in staying.chain(obstacles) {
+        let first = firsts.entry(reason).or_insert(First {
+            number,
+            pointer,
+            count: 0,
         });
+        if number < first.number {
+            (first.number, first.pointer) = (number, pointer);
+        }
+        first.count += 1;
+    }
+
+    let mut firsts: Vec<_> = firsts.into_iter().collect();
+    firsts.sort_by_key(|(_, first)| first.number);
+    let notes = firsts.into_iter().map(|(reason, first)| {
+        let pointer = first.pointer.map(str::to_owned);
+        let pointer = pointer.unwrap_or_else(|| first.number.pointer());
+        Note {
+            more: first.count - 1,
+            ..reason.note(Place::Json(pointer))
+        }
+    });
     let mut notes: Vec<Note> = notes.collect();
+
     let note = |pointer: &str, text: String| Note::new(Place::Json(pointer.to_owned()), text);
     for (buffer, why) in buffers.unreadable() {
         notes.push(note(
@@ -204,7 +259,17 @@ fn notes(
     notes
 }
 
-impl Content for Scene {
+impl fmt::Debug for GltfFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("GltfFile")
+            .field("source", &self.source)
+            .field("bytes", &self.buffers.byte_count())
+            .field("meshes", &self.entries.meshes.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Content for GltfFile {
     fn meshes(&self) -> &[MeshEntry] {
         &self.entries.meshes
     }
@@ -264,5 +329,9 @@ impl Content for Scene {
             uri_spans: &self.uri_spans,
         };
         output.files(path)
+    }
+
+    fn size_beside(&self) -> u64 {
+        self.buffers.read_size
     }
 }

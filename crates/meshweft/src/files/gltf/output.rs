@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::base64;
 use super::buffers::{Buffers, Source, Storage, percent_encoded};
 use super::container::Container;
-use crate::files::OutputFile;
+use crate::files::content::OutputFile;
 use crate::files::error::{FileErrorKind, Place, Problem};
 
 /// What is needed to write the file again.
@@ -76,7 +76,7 @@ impl<'a> Output<'a> {
     fn new_name(&self, path: &Path, storage: usize) -> Result<String, Problem> {
         let name = path.file_name().and_then(|name| name.to_str());
         let name = name.ok_or_else(|| {
-            let feature = "the name of a buffer beside the output would be no UTF-8 text: choose \
+            let feature = "the name of a buffer beside the output would not be UTF-8 text: choose \
                            another name";
             FileErrorKind::unsupported(feature).at(Place::File)
         })?;

@@ -1,11 +1,11 @@
 //! Records moved and vertex numbers rewritten in the bytes of a storage.
 
-use super::records::Records;
+use super::strided_records::StridedRecords;
 use crate::permutation::FaceOrder;
 
 /// Puts record `new_to_old[i]` at the `i`-th place; the bytes between records stay.
-pub(super) fn permute(bytes: &mut [u8], records: &Records, new_to_old: &[u32]) {
-    let Records {
+pub(super) fn permute(bytes: &mut [u8], records: &StridedRecords, new_to_old: &[u32]) {
+    let StridedRecords {
         start,
         stride,
         size,
@@ -33,8 +33,12 @@ pub(super) fn permute(bytes: &mut [u8], records: &Records, new_to_old: &[u32]) {
     }
 }
 
-fn permute_sized<const SIZE: usize>(bytes: &mut [u8], records: &Records, new_to_old: &[u32]) {
-    let Records { start, stride, .. } = *records;
+fn permute_sized<const SIZE: usize>(
+    bytes: &mut [u8],
+    records: &StridedRecords,
+    new_to_old: &[u32],
+) {
+    let StridedRecords { start, stride, .. } = *records;
     let record = |bytes: &[u8], i: usize| -> [u8; SIZE] {
         let record = bytes[start + i * stride..].first_chunk::<SIZE>();
         *record.expect("records are within their storage")
@@ -50,10 +54,10 @@ fn permute_sized<const SIZE: usize>(bytes: &mut [u8], records: &Records, new_to_
 }
 
 /// Joins sorted records that are interleaved side by side: they move together.
-pub(super) fn join(all: &mut Vec<Records>) {
-    let mut joined: Vec<Records> = Vec::with_capacity(all.len());
+pub(super) fn join(all: &mut Vec<StridedRecords>) {
+    let mut joined: Vec<StridedRecords> = Vec::with_capacity(all.len());
     for &records in all.iter() {
-        let beside = |last: &&mut Records| {
+        let beside = |last: &&mut StridedRecords| {
             let same = (last.storage, last.count, last.stride);
             same == (records.storage, records.count, records.stride)
                 && last.start + last.size == records.start
@@ -79,7 +83,7 @@ pub(super) fn triples(order: &FaceOrder) -> Vec<u32> {
 }
 
 /// The faces of a tight list of unsigned integers, three a face.
-pub(super) fn faces(bytes: &[u8], records: &Records) -> Vec<[u32; 3]> {
+pub(super) fn faces(bytes: &[u8], records: &StridedRecords) -> Vec<[u32; 3]> {
     let list = &bytes[records.start..records.end()];
     match records.size {
         1 => list
@@ -106,7 +110,7 @@ pub(super) fn faces(bytes: &[u8], records: &Records) -> Vec<[u32; 3]> {
 }
 
 /// The vertex numbers of a tight list of unsigned integers.
-pub(super) fn numbers(bytes: &[u8], records: &Records) -> Vec<u32> {
+pub(super) fn numbers(bytes: &[u8], records: &StridedRecords) -> Vec<u32> {
     let list = &bytes[records.start..records.end()];
     list.chunks_exact(records.size)
         .map(|chunk| {
@@ -120,7 +124,7 @@ pub(super) fn numbers(bytes: &[u8], records: &Records) -> Vec<u32> {
 /// Writes vertex numbers into a tight list of unsigned integers, which is wide enough for them.
 pub(super) fn write_numbers(
     bytes: &mut [u8],
-    records: &Records,
+    records: &StridedRecords,
     numbers: impl IntoIterator<Item = u32>,
 ) {
     let list = &mut bytes[records.start..records.end()];
@@ -143,7 +147,7 @@ mod tests {
     #[test]
     fn bytes_between_records_stay() {
         let mut bytes = *b"..aa-bb-cc--";
-        let records = Records {
+        let records = StridedRecords {
             storage: 0,
             start: 2,
             count: 3,
@@ -158,7 +162,7 @@ mod tests {
     fn records_of_any_size_move_alike() {
         for size in 1..50 {
             for stride in [size, size + 3] {
-                let records = Records {
+                let records = StridedRecords {
                     storage: 0,
                     start: 5,
                     count: 4,
@@ -180,7 +184,7 @@ mod tests {
 
     #[test]
     fn interleaved_neighbours_are_joined() {
-        let records = |start, size| Records {
+        let records = |start, size| StridedRecords {
             storage: 0,
             start,
             count: 3,
@@ -215,7 +219,7 @@ mod tests {
     #[test]
     fn numbers_keep_their_width() {
         for size in [1, 2, 4] {
-            let records = Records {
+            let records = StridedRecords {
                 storage: 0,
                 start: 1,
                 count: 3,

@@ -3,110 +3,23 @@
 
 use std::borrow::Cow;
 
-use super::accessors::{
-    Accessor, Accessors, FLOAT, Shape, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT,
-};
-use super::extensions::{self, Restraint};
-use super::json::{Object, Value};
-use super::records::Records;
+use super::accessors::{Accessor, Accessors, FLOAT, Shape};
+use super::extensions;
+use super::json::Value;
+use super::movable::{IndexList, Movable, Primitive, PrimitiveNumber, Staying, Uncommon};
+use super::object::{Object, malformed};
+use super::obstacles::Obstacles;
 use super::sparse::Sparse;
-use crate::files::ReadOptions;
+use super::strided_records::StridedRecords;
 use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::options::ReadOptions;
 use crate::limits::{MAX_FACES, MAX_VERTICES, index32};
-
-/// Something that keeps vertices where they are: the pointer to it, and why.
-#[derive(Debug, Clone)]
-pub(super) struct Pin {
-    pub(super) pointer: String,
-    pub(super) why: String,
-}
-
-/// A list of vertex indices in an accessor.
-#[derive(Debug, Clone)]
-pub(super) struct IndexList {
-    pub(super) pointer: String,
-    pub(super) records: Records,
-    pub(super) is_bounded: bool,
-}
-
-/// Where a primitive stands: the numbers of its mesh and of itself. They come in the order of the
-/// file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Position {
-    mesh: u32,
-    primitive: u32,
-}
-
-impl Position {
-    pub(super) fn pointer(self) -> String {
-        format!("/meshes/{}/primitives/{}", self.mesh, self.primitive)
-    }
-}
-
-/// A triangle-list primitive whose faces can be re-ordered as far as itself is concerned.
-///
-/// A file can have very many: what few of them have is apart.
-#[derive(Debug)]
-pub(super) struct Draft {
-    pub(super) position: Position,
-    pub(super) vertex_count: usize,
-    /// Its corners; without them the vertices come three a face.
-    pub(super) indices: Option<Box<IndexList>>,
-    /// Every attribute and morph target that has bytes, rising, each once.
-    pub(super) vertices: Box<[Records]>,
-    /// Which of them is POSITION, if that is three floats.
-    pub(super) positions: Option<u32>,
-    pub(super) rare: Option<Box<Rare>>,
-    /// The numbers of all accessors it names.
-    pub(super) accessors: Box<[u32]>,
-}
-
-/// What few primitives have.
-#[derive(Debug, Default)]
-pub(super) struct Rare {
-    /// What is sparse of the positions.
-    pub(super) sparse_positions: Option<Sparse>,
-    pub(super) outline: Option<IndexList>,
-    /// The sparse elements of attributes and morph targets, rising, each once.
-    pub(super) sparse: Vec<Sparse>,
-    /// Accessors whose sparse elements cannot be moved.
-    pub(super) unmoved_sparse: Vec<usize>,
-    /// Why the vertices must stay.
-    pub(super) pin: Option<Pin>,
-}
-
-impl Draft {
-    pub(super) fn outline(&self) -> Option<&IndexList> {
-        self.rare.as_ref()?.outline.as_ref()
-    }
-
-    pub(super) fn sparse(&self) -> &[Sparse] {
-        self.rare.as_ref().map_or(&[], |rare| &rare.sparse)
-    }
-
-    pub(super) fn pin(&self) -> Option<&Pin> {
-        self.rare.as_ref()?.pin.as_ref()
-    }
-
-    /// The lists of vertex numbers: corners and outline.
-    pub(super) fn lists(&self) -> impl Iterator<Item = &IndexList> {
-        self.indices.as_deref().into_iter().chain(self.outline())
-    }
-}
-
-/// A primitive that stays as it is.
-#[derive(Debug)]
-pub(super) struct Left {
-    pub(super) position: Position,
-    pub(super) why: Cow<'static, str>,
-    pub(super) accessors: Box<[u32]>,
-}
 
 /// All primitives of a file.
 #[derive(Debug, Default)]
 pub(super) struct Primitives {
-    pub(super) drafts: Vec<Draft>,
-    pub(super) left: Vec<Left>,
+    pub(super) movable: Vec<Movable>,
+    pub(super) staying: Vec<Staying>,
     /// Accessors that read the same triangles in one piece and do not mind their order.
     pub(super) order_free_accessors: Vec<usize>,
     /// Of each mesh its name, and whether it has more than one primitive.
@@ -115,8 +28,8 @@ pub(super) struct Primitives {
 
 impl Primitives {
     /// What a primitive is called.
-    pub(super) fn name(&self, position: Position) -> String {
-        let Position { mesh, primitive } = position;
+    pub(super) fn name(&self, number: PrimitiveNumber) -> String {
+        let PrimitiveNumber { mesh, primitive } = number;
         let (name, has_several) = &self.meshes[mesh as usize];
         let name = name.as_deref();
         let name = name.map_or_else(|| format!("mesh {mesh}"), str::to_owned);
@@ -133,7 +46,7 @@ impl Primitives {
     ) -> Result<Self, Problem> {
         let mut all = Self::default();
         // JSON is shorter than 4 GiB, so all numbers fit.
-        for (number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
+        for (mesh_number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
             let mesh = mesh?;
             let name = mesh.text("name").ok().flatten();
             let of_mesh = extensions::of_mesh(&mesh, accessors, &mut all.order_free_accessors)?;
@@ -143,19 +56,20 @@ impl Primitives {
                 .map_or(0, |p| p.elements().take(2).count());
             all.meshes
                 .push((name.map(|name| name.into()), has_several != 1));
-            for (index, primitive) in (0_u32..).zip(primitives) {
-                let reader = Reader {
-                    position: Position {
-                        mesh: number,
-                        primitive: index,
+
+            for (number, primitive) in (0_u32..).zip(primitives) {
+                let reader = PrimitiveReader {
+                    number: PrimitiveNumber {
+                        mesh: mesh_number,
+                        primitive: number,
                     },
                     primitive: primitive?,
                     accessors,
                     options,
                 };
                 match reader.read(of_mesh.clone())? {
-                    Ok(draft) => all.drafts.push(draft),
-                    Err(left) => all.left.push(left),
+                    Primitive::Movable(movable) => all.movable.push(movable),
+                    Primitive::Staying(staying) => all.staying.push(staying),
                 }
             }
         }
@@ -168,88 +82,98 @@ impl Primitives {
 struct VertexData {
     /// The sparse elements of POSITION.
     positions: Option<Sparse>,
-    records: Vec<Records>,
+    records: Vec<StridedRecords>,
     sparse: Vec<Sparse>,
     unmoved_sparse: Vec<usize>,
 }
 
-struct Reader<'a> {
-    position: Position,
+struct PrimitiveReader<'a> {
+    number: PrimitiveNumber,
     primitive: Object<'a>,
     accessors: &'a Accessors<'a>,
     options: &'a ReadOptions,
 }
 
-impl Reader<'_> {
-    fn read(self, mut restraint: Restraint) -> Result<Result<Draft, Left>, Problem> {
-        let left = |why: Cow<'static, str>| Left {
-            position: self.position,
-            accessors: self.named_accessors(),
-            why,
-        };
-        match self.primitive.number("mode")?.unwrap_or(4) {
-            4 => {}
-            0 => return Ok(Err(left("it is drawn as points".into()))),
-            1..=3 => return Ok(Err(left("it is drawn as lines".into()))),
-            5 | 6 => {
-                let why = "it is a strip or fan, whose faces depend on those before";
-                return Ok(Err(left(why.into())));
-            }
-            mode => return Err(self.primitive.problem(format!("there is no mode {mode}"))),
+impl PrimitiveReader<'_> {
+    fn read(self, mut obstacles: Obstacles) -> Result<Primitive, Problem> {
+        // What is drawn in another way, compressed or of unknown build is not looked into.
+        if let Some(why) = self.other_mode()? {
+            return Ok(self.staying(why.into()));
         }
-        let outline = extensions::of_primitive(&self.primitive, self.accessors, &mut restraint)?;
-        // What is compressed or of unknown build is not looked into.
-        if let Some(why) = restraint.left {
-            return Ok(Err(left(why)));
+        let outline = extensions::of_primitive(&self.primitive, self.accessors, &mut obstacles)?;
+        if let Some(why) = obstacles.of_primitive {
+            return Ok(self.staying(why));
         }
-        let (position, data) = self.read_attributes(&mut restraint)?;
-        let indices = self.read_indices(&mut restraint)?;
+
+        let (position, data) = self.read_attributes(&mut obstacles)?;
+        let indices = self.read_indices(&mut obstacles)?;
         let vertex_count = position.as_ref().map_or(0, |position| position.count);
         if indices.is_none() && vertex_count % 3 != 0 {
-            restraint.leave(format!("{vertex_count} vertices are not three a face"));
+            obstacles.keep_primitive(format!("{vertex_count} vertices are not three a face"));
         }
         // Without indices a face order moves the vertices.
-        if let (false, Some(pin)) = (self.primitive.has("indices"), &restraint.pin) {
-            let why = format!("{}: {}", pin.pointer, pin.why);
-            restraint.leave(why);
+        if let (false, Some(obstacle)) = (self.primitive.has("indices"), &obstacles.of_vertices) {
+            let why = format!("{}: {}", obstacle.pointer, obstacle.why);
+            obstacles.keep_primitive(why);
         }
-        if let Some((pointer, name)) = restraint.unknown.first()
+
+        // Refuse what is unknown, where that is asked for, even if the primitive stays.
+        if let Some((pointer, name)) = obstacles.unknown.first()
             && let Some(kind) = self.options.refusal("the extension", name)
         {
             return Err(kind.at(Place::Json(pointer.clone())));
         }
-        if let Some(why) = restraint.left {
-            return Ok(Err(left(why)));
+        if let Some(why) = obstacles.of_primitive {
+            return Ok(self.staying(why));
         }
         self.check_limits(vertex_count, indices.as_ref())?;
+
         let positions = position.filter(|p| p.component == FLOAT && p.shape == Shape::VEC3);
         let positions = positions.and_then(|position| position.records);
         let positions = positions.and_then(|p| data.records.binary_search(&p).ok());
-        let rare = Rare {
+        let uncommon = Uncommon {
             sparse_positions: data.positions,
             sparse: data.sparse,
             unmoved_sparse: data.unmoved_sparse,
             outline,
-            pin: restraint.pin,
+            vertex_obstacle: obstacles.of_vertices,
         };
-        let has_rare = rare.outline.is_some()
-            || rare.pin.is_some()
-            || !(rare.sparse.is_empty() && rare.unmoved_sparse.is_empty());
-        Ok(Ok(Draft {
-            position: self.position,
+        Ok(Primitive::Movable(Movable {
+            number: self.number,
             vertex_count,
             indices: indices.map(Box::new),
             positions: positions.map(index32),
             vertices: data.records.into(),
-            rare: has_rare.then(|| Box::new(rare)),
+            uncommon: (!uncommon.is_empty()).then(|| Box::new(uncommon)),
             accessors: self.named_accessors(),
         }))
+    }
+
+    /// Why its way of drawing keeps it as it is; `None` for a triangle list.
+    fn other_mode(&self) -> Result<Option<&'static str>, Problem> {
+        match self.primitive.number("mode")?.unwrap_or(4) {
+            0 => Ok(Some("it is drawn as points")),
+            1..=3 => Ok(Some("it is drawn as lines")),
+            4 => Ok(None),
+            5 | 6 => Ok(Some(
+                "it is a strip or fan, whose faces depend on those before",
+            )),
+            mode => Err(self.primitive.problem(format!("there is no mode {mode}"))),
+        }
+    }
+
+    fn staying(&self, why: Cow<'static, str>) -> Primitive {
+        Primitive::Staying(Staying {
+            number: self.number,
+            why,
+            accessors: self.named_accessors(),
+        })
     }
 
     /// POSITION, and the records of all attributes and morph targets.
     fn read_attributes(
         &self,
-        restraint: &mut Restraint,
+        obstacles: &mut Obstacles,
     ) -> Result<(Option<Accessor>, VertexData), Problem> {
         let attributes = self.primitive.object("attributes")?;
         let attributes =
@@ -261,17 +185,17 @@ impl Reader<'_> {
             }
             // An extension may bring the positions; else nothing of it is drawn, which is legal.
             None => {
-                restraint.leave("it has no POSITION");
+                obstacles.keep_primitive("it has no POSITION");
                 return Ok((None, VertexData::default()));
             }
         };
         if position.records.is_none() && !position.is_compressed {
-            restraint.leave("its POSITION has no buffer view");
+            obstacles.keep_primitive("its POSITION has no buffer view");
         }
         let mut data = VertexData::default();
-        self.read_set(&attributes, &position, restraint, &mut data)?;
+        self.read_set(&attributes, &position, obstacles, &mut data)?;
         for target in self.primitive.objects("targets")? {
-            self.read_set(&target?, &position, restraint, &mut data)?;
+            self.read_set(&target?, &position, obstacles, &mut data)?;
         }
         data.records.sort_unstable();
         data.records.dedup();
@@ -285,7 +209,7 @@ impl Reader<'_> {
         &self,
         set: &Object,
         position: &Accessor,
-        restraint: &mut Restraint,
+        obstacles: &mut Obstacles,
         data: &mut VertexData,
     ) -> Result<(), Problem> {
         for member in set.numbers() {
@@ -293,7 +217,7 @@ impl Reader<'_> {
             let pointer = set.pointer_to(&name);
             let accessor = self.accessors.resolve(number, &pointer)?;
             if accessor.count != position.count {
-                return Err(super::json::malformed(
+                return Err(malformed(
                     pointer,
                     format!(
                         "{} has {} elements, but POSITION has {}",
@@ -301,7 +225,7 @@ impl Reader<'_> {
                     ),
                 ));
             }
-            self.restrain(&accessor, restraint);
+            note_obstacles(&accessor, obstacles);
             if accessor.is_sparse {
                 let moved = match self.primitive.has("indices") {
                     true => self.accessors.sparse(number, accessor.count, accessor.size),
@@ -315,7 +239,7 @@ impl Reader<'_> {
                         data.sparse.push(sparse);
                     }
                     Err(why) => {
-                        restraint.pin(&accessor.pointer, why);
+                        obstacles.keep_vertices(&accessor.pointer, why);
                         data.unmoved_sparse.push(number);
                     }
                 }
@@ -325,31 +249,31 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn read_indices(&self, restraint: &mut Restraint) -> Result<Option<IndexList>, Problem> {
+    fn read_indices(&self, obstacles: &mut Obstacles) -> Result<Option<IndexList>, Problem> {
         let Some(number) = self.primitive.number("indices")? else {
             return Ok(None);
         };
         let user = self.primitive.pointer_to("indices");
         let accessor = self.accessors.resolve(number, &user)?;
-        if !is_index_type(&accessor) {
+        if !accessor.is_index_type() {
             let problem = format!(
                 "indices must be single unsigned bytes, shorts or ints: {} has component type {}",
                 accessor.pointer, accessor.component
             );
-            return Err(super::json::malformed(user, problem));
+            return Err(malformed(user, problem));
         }
-        self.restrain(&accessor, restraint);
+        note_obstacles(&accessor, obstacles);
         if accessor.is_sparse {
-            restraint.leave("its indices are sparse");
+            obstacles.keep_primitive("its indices are sparse");
         }
         if accessor.is_strided {
-            restraint.leave("its indices have a byteStride");
+            obstacles.keep_primitive("its indices have a byteStride");
         }
         if accessor.count % 3 != 0 {
-            restraint.leave(format!("{} indices are not three a face", accessor.count));
+            obstacles.keep_primitive(format!("{} indices are not three a face", accessor.count));
         }
         let Some(records) = accessor.records else {
-            restraint.leave("its indices have no buffer view");
+            obstacles.keep_primitive("its indices have no buffer view");
             return Ok(None);
         };
         Ok(Some(IndexList {
@@ -357,18 +281,6 @@ impl Reader<'_> {
             is_bounded: accessor.is_bounded,
             pointer: accessor.pointer,
         }))
-    }
-
-    fn restrain(&self, accessor: &Accessor, restraint: &mut Restraint) {
-        if accessor.is_compressed {
-            restraint.leave("it is compressed by meshopt: decompress it first");
-        }
-        if let Some(why) = accessor.fixed {
-            restraint.leave(why);
-        }
-        if let Some(name) = &accessor.unknown_extension {
-            restraint.pin_unknown(&accessor.pointer, name);
-        }
     }
 
     fn check_limits(
@@ -429,7 +341,15 @@ impl Reader<'_> {
     }
 }
 
-pub(super) fn is_index_type(accessor: &Accessor) -> bool {
-    accessor.shape == Shape::SCALAR
-        && [UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT].contains(&accessor.component)
+/// Notes what keeps the records of an accessor where they are.
+fn note_obstacles(accessor: &Accessor, obstacles: &mut Obstacles) {
+    if accessor.is_compressed {
+        obstacles.keep_primitive("it is compressed by meshopt: decompress it first");
+    }
+    if let Some(why) = accessor.fixed {
+        obstacles.keep_primitive(why);
+    }
+    if let Some(name) = &accessor.unknown_extension {
+        obstacles.keep_vertices_for_unknown(&accessor.pointer, name);
+    }
 }

@@ -1,22 +1,22 @@
 //! Sparse accessors: a few elements stored by number, which follow when vertices move.
 //!
-//! The numbers must rise, so a vertex order renumbers them, sorts them anew, and moves their values
+//! The numbers must rise, so a vertex order renumbers them, sorts them again, and moves their values
 //! alike. Both lists keep their place and length.
 
 use super::accessors::{Accessors, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT};
 use super::buffers::Buffers;
 use super::json::Value;
 use super::patch;
-use super::records::Records;
+use super::strided_records::StridedRecords;
 use crate::limits::index32;
 
 /// Elements stored by number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Sparse {
     /// The numbers of the elements, rising.
-    pub(super) indices: Records,
+    pub(super) indices: StridedRecords,
     /// Their values.
-    pub(super) values: Records,
+    pub(super) values: StridedRecords,
 }
 
 impl Accessors<'_> {
@@ -65,7 +65,7 @@ impl Accessors<'_> {
     }
 
     /// `count` tight elements of `size` bytes in the view that a part names, if they are all there.
-    fn part(&self, part: Value<'_>, count: usize, size: usize) -> Option<Records> {
+    fn part(&self, part: Value<'_>, count: usize, size: usize) -> Option<StridedRecords> {
         let member = |value: Value<'_>, name: &str| value.get(name).and_then(Value::whole);
         let view = *self.views().get(member(part, "bufferView")?)?;
         let stride = member(view, "byteStride").filter(|&stride| stride != 0);
@@ -74,8 +74,8 @@ impl Accessors<'_> {
         }
         let offset = member(part, "byteOffset").unwrap_or(0);
         let length = count.checked_mul(size)?;
-        let bytes = self.claimed_bytes(view, offset, Some(length))?;
-        (bytes.size == length && self.fixed(bytes.storage).is_none()).then_some(Records {
+        let bytes = self.bytes_of_view(view, offset, Some(length))?;
+        (bytes.size == length && self.fixed(bytes.storage).is_none()).then_some(StridedRecords {
             storage: bytes.storage,
             start: bytes.start,
             count,

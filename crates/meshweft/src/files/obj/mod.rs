@@ -1,6 +1,6 @@
 //! Wavefront OBJ: `f` lines move within their run, `v` lines as a whole.
 //!
-//! Two choices stand behind what is done here:
+//! Two choices were made here:
 //!
 //! - A vertex is what the *position* number of a corner names (the first of `1/2/3`). So a file has
 //!   as many vertices as `v` lines, whatever seams its textures have; texture and normal numbers
@@ -8,7 +8,7 @@
 //!   more misses at seams, in the same order.
 //! - A *run* is a stretch of `f` lines with nothing between but blank lines and comments. Any other
 //!   statement (`g`, `o`, `usemtl`, `s`, `v`, `l`, …) ends it, because what it says holds for the
-//!   faces behind it. A face never leaves its run, so a number that counts back (`-1`) means the
+//!   faces after it. A face never leaves its run, so a number that counts back (`-1`) means the
 //!   same wherever the face goes; it is written as a plain number only if its vertex is renumbered.
 //!   If the caller wishes, `g` and `o` do not end a run.
 //!
@@ -20,13 +20,17 @@ mod statement;
 use std::ops::Range;
 
 use crate::Mesh;
-use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::files::records::{FaceRecords, Spans, check_vertex_count, past_the_last_vertex};
+use crate::files::content::ReadResult;
+use crate::files::entry::MeshEntry;
+use crate::files::error::{Fault, FileErrorKind, Place};
+use crate::files::face_records::{FaceRecords, check_vertex_count, past_the_last_vertex};
+use crate::files::note::Note;
+use crate::files::options::ReadOptions;
+use crate::files::slots::Spans;
 use crate::files::splice::{Orders, RecordFile};
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, leading_number, line_end, line_of, shown, trimmed,
 };
-use crate::files::{MeshEntry, Note, ReadOptions, ReadResult};
 use crate::limits::index32;
 use statement::{ObjNotation, attributes_named, statement_span};
 
@@ -55,12 +59,14 @@ const NAME_NO_VERTICES: [&[u8]; 19] = [
 
 /// Reads an OBJ file.
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
-    let mut reader = Reader::new(&bytes, options);
-    reader.statements().map_err(|fault| fault.problem(&bytes))?;
+    let mut reader = ObjReader::new(&bytes, options);
+    reader
+        .statements()
+        .map_err(|fault| fault.on_its_line(&bytes))?;
     reader
         .check_range()
-        .map_err(|fault| fault.problem(&bytes))?;
-    let Reader {
+        .map_err(|fault| fault.on_its_line(&bytes))?;
+    let ObjReader {
         vertices,
         positions,
         faces,
@@ -74,15 +80,12 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     let mut notes = Vec::new();
     let mut entries = Vec::new();
     if records.len() == 0 {
-        let text = "no faces: there is nothing to order";
-        notes.push(Note::new(Place::File, text));
+        notes.push(Note::nothing_to_order());
     } else {
         let vertices_movable = obstacle.is_none();
         if let Some((at, why)) = obstacle {
-            notes.push(Note::new(
-                Place::Line(line_of(&bytes, at)),
-                format!("the vertices stay where they are: {why}"),
-            ));
+            let place = Place::Line(line_of(&bytes, at));
+            notes.push(Note::vertices_stay(place, why));
         }
         let name = name.map_or_else(
             || "mesh".to_owned(),
@@ -116,24 +119,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     Ok((Box::new(file), notes))
 }
 
-/// What is wrong, and the byte where.
-struct Fault {
-    at: usize,
-    kind: FileErrorKind,
-}
-
-impl Fault {
-    fn malformed(at: usize, text: impl Into<String>) -> Self {
-        let kind = FileErrorKind::malformed(text);
-        Self { at, kind }
-    }
-
-    fn problem(self, source: &[u8]) -> Problem {
-        self.kind.at(Place::Line(line_of(source, self.at)))
-    }
-}
-
-struct Reader<'a> {
+struct ObjReader<'a> {
     source: &'a [u8],
     options: &'a ReadOptions,
     vertices: Spans,
@@ -146,7 +132,7 @@ struct Reader<'a> {
     lines: Spans,
     /// The largest plain number that an `f`, `l` or `p` names.
     largest: i64,
-    /// The text behind the first `o`.
+    /// The text after the first `o`.
     name: Option<Range<usize>>,
     /// Why the vertices cannot move, and where that was found.
     obstacle: Option<(usize, String)>,
@@ -156,7 +142,7 @@ struct Reader<'a> {
     corners: Vec<u32>,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> ObjReader<'a> {
     fn new(source: &'a [u8], options: &'a ReadOptions) -> Self {
         Self {
             source,
@@ -178,7 +164,7 @@ impl<'a> Reader<'a> {
 
     fn statements(&mut self) -> Result<(), Fault> {
         let source = self.source;
-        // A byte order mark is no part of the first keyword.
+        // A byte order mark is not part of the first keyword.
         let mut at = if source.starts_with(b"\xef\xbb\xbf") {
             3
         } else {
@@ -261,7 +247,7 @@ impl<'a> Reader<'a> {
         }
         let record = &self.source[span.clone()];
         if record.ends_with(b"\\") && !record.contains(&b'#') {
-            // Before another line end it would swallow the line behind.
+            // Before another line end it would swallow the line after it.
             let text = "a \\ at the end that is not followed by a line end: remove it";
             return Err(Fault::malformed(span.start, text));
         }

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use crate::files::splice::{Change, Notation, write_corners};
+use crate::files::splice::{Notation, Rewrite};
 use crate::files::text::{Tokens, is_line_end, leading_number, line_end, trimmed};
 
 /// The statement that starts at `start`, and where its last line ends: at a line end that no `\`
 /// stands before.
 ///
 /// A `\` at the end of a comment continues nothing. One that only blank lines follow is not part of
-/// the statement: moved along, it would swallow the line behind its new place.
+/// the statement: moved along, it would swallow the line after its new place.
 pub(super) fn statement_span(source: &[u8], start: usize) -> (Range<usize>, usize) {
     let mut from = start;
     loop {
@@ -57,36 +57,26 @@ pub(super) struct ObjNotation {
 }
 
 impl Notation for ObjNotation {
-    fn write_face(
-        &self,
-        _number: usize,
-        record: &[u8],
-        change: Change<'_>,
-        scratch: &mut Vec<Range<usize>>,
-        out: &mut Vec<u8>,
-    ) {
-        scratch.clear();
-        scratch.extend(Tokens::of_statement(record, 0).skip(1));
+    fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>) {
+        rewrite.corners.clear();
+        rewrite
+            .corners
+            .extend(Tokens::of_statement(record, 0).skip(1));
         // Vertices are only renumbered where all of them stand above the first face, so counting
         // back starts at the last one everywhere.
-        let vertex_of = |number: i64| {
+        let vertex_of = |corner: &[u8]| {
+            let (number, length) = leading_number(corner)?;
             let number = isize::try_from(number).ok()?;
-            match number > 0 {
-                true => usize::try_from(number - 1).ok(),
-                false => self.vertex_count.checked_add_signed(number),
-            }
+            let vertex = match number > 0 {
+                true => usize::try_from(number - 1).ok()?,
+                false => self.vertex_count.checked_add_signed(number)?,
+            };
+            Some((vertex, length))
         };
-        write_corners(record, scratch, change, 1, vertex_of, out);
+        rewrite.write_corners(record, 1, vertex_of);
     }
 
-    fn write_line(
-        &self,
-        number: usize,
-        line: &[u8],
-        change: Change<'_>,
-        scratch: &mut Vec<Range<usize>>,
-        out: &mut Vec<u8>,
-    ) {
-        self.write_face(number, line, change, scratch, out);
+    fn write_line(&self, line: &[u8], rewrite: Rewrite<'_>) {
+        self.write_face(line, rewrite);
     }
 }

@@ -71,7 +71,7 @@ impl Scalar {
 
 /// One number, or a list with its length before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum PropertyKind {
     Scalar(Scalar),
     List { count: Scalar, item: Scalar },
 }
@@ -80,7 +80,7 @@ pub(super) enum Kind {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Property {
     pub(super) name: String,
-    pub(super) kind: Kind,
+    pub(super) kind: PropertyKind,
 }
 
 /// Rows of one kind.
@@ -96,7 +96,7 @@ pub(super) struct Element {
 impl Element {
     /// The number of the property that is one number and has this name.
     pub(super) fn scalar(&self, name: &str) -> Option<usize> {
-        let is_it = |p: &Property| p.name == name && matches!(p.kind, Kind::Scalar(_));
+        let is_it = |p: &Property| p.name == name && matches!(p.kind, PropertyKind::Scalar(_));
         self.properties.iter().position(is_it)
     }
 
@@ -104,7 +104,7 @@ impl Element {
     pub(super) fn corner_list(&self) -> Option<usize> {
         let is_it = |p: &Property| {
             matches!(p.name.as_str(), "vertex_indices" | "vertex_index")
-                && matches!(p.kind, Kind::List { .. })
+                && matches!(p.kind, PropertyKind::List { .. })
         };
         self.properties.iter().position(is_it)
     }
@@ -112,8 +112,8 @@ impl Element {
     /// The least a row takes in a binary file.
     pub(super) fn smallest_row(&self) -> usize {
         let size = |property: &Property| match property.kind {
-            Kind::Scalar(scalar) => scalar.size(),
-            Kind::List { count, .. } => count.size(),
+            PropertyKind::Scalar(scalar) => scalar.size(),
+            PropertyKind::List { count, .. } => count.size(),
         };
         self.properties.iter().map(size).sum()
     }
@@ -121,14 +121,14 @@ impl Element {
 
 /// All that stands before the rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Header {
+pub(super) struct PlyHeader {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
     /// Where the rows start.
     pub(super) body: usize,
 }
 
-impl Header {
+impl PlyHeader {
     pub(super) fn element(&self, name: &str) -> Option<&Element> {
         self.elements.iter().find(|element| element.name == name)
     }
@@ -139,7 +139,7 @@ impl Header {
 }
 
 /// Reads the header.
-pub(super) fn read(source: &[u8]) -> Result<Header, Problem> {
+pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
     let malformed = |at: usize, text: String| {
         FileErrorKind::malformed(text).at(Place::Line(line_of(source, at)))
     };
@@ -149,7 +149,7 @@ pub(super) fn read(source: &[u8]) -> Result<Header, Problem> {
         return Err(malformed(0, text));
     }
     // Lines may end with a lone `\r`; the first line shows it. It has to be known, for the first
-    // byte behind the last `\r` of such a header may be a `\n`.
+    // byte after the last `\r` of such a header may be a `\n`.
     let first = source.iter().position(|&byte| is_line_end(byte));
     let only_returns =
         first.is_some_and(|at| source[at] == b'\r' && source.get(at + 1) != Some(&b'\n'));
@@ -186,7 +186,7 @@ pub(super) fn read(source: &[u8]) -> Result<Header, Problem> {
                 let count = whole_number(word).and_then(|n| usize::try_from(n).ok());
                 let count = count.ok_or_else(|| {
                     let text = format!(
-                        "the element {name:?} has {} rows, which is no count",
+                        "the element {name:?} has {} rows, which is not a count",
                         shown(word)
                     );
                     malformed(start, text)
@@ -217,7 +217,7 @@ pub(super) fn read(source: &[u8]) -> Result<Header, Problem> {
                     )
                 })?;
                 check_faces(&elements)?;
-                return Ok(Header {
+                return Ok(PlyHeader {
                     encoding,
                     elements,
                     body: at,
@@ -246,9 +246,9 @@ fn property<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Result<Property, 
             if count.is_float() {
                 return Err("the length of a list cannot be a float".into());
             }
-            Kind::List { count, item }
+            PropertyKind::List { count, item }
         }
-        other => Kind::Scalar(scalar(other)?),
+        other => PropertyKind::Scalar(scalar(other)?),
     };
     let name = words.next().ok_or("a property without a name")?;
     let name = String::from_utf8_lossy(name).into_owned();
@@ -262,7 +262,7 @@ fn check_faces(elements: &[Element]) -> Result<(), Problem> {
     };
     let malformed = |text: &str| Err(FileErrorKind::malformed(text).at(Place::Line(face.line)));
     match face.corner_list().map(|list| face.properties[list].kind) {
-        Some(Kind::List { item, .. }) if item.is_float() => {
+        Some(PropertyKind::List { item, .. }) if item.is_float() => {
             malformed("the corners of the faces are floats: export them as whole numbers")
         }
         None if face.count > 0 => malformed(

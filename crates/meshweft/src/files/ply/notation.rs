@@ -1,11 +1,8 @@
 //! Writing the corners of a PLY face.
 
-use std::ops::Range;
-
-use super::header::{Element, Encoding, Header, Kind, Scalar};
-use super::list_length;
+use super::header::{Element, Encoding, PlyHeader, PropertyKind, Scalar};
 use super::rows::{Ascii, Binary, Row, Rows};
-use crate::files::splice::{Change, Notation, write_corners};
+use crate::files::splice::{Change, Notation, Rewrite, vertex_from_zero};
 use crate::files::text::Tokens;
 
 /// How corners stand in face rows.
@@ -19,7 +16,7 @@ pub(super) struct PlyNotation {
 }
 
 impl PlyNotation {
-    pub(super) fn new(header: &Header) -> Self {
+    pub(super) fn new(header: &PlyHeader) -> Self {
         let face = header.element("face");
         let face = face.and_then(|face| Some((face.clone(), face.corner_list()?)));
         let encoding = header.encoding;
@@ -40,13 +37,13 @@ impl PlyNotation {
         let mut offset = 0;
         for property in &element.properties[..*list] {
             match property.kind {
-                Kind::Scalar(scalar) => offset += scalar.size(),
-                Kind::List { .. } => return None,
+                PropertyKind::Scalar(scalar) => offset += scalar.size(),
+                PropertyKind::List { .. } => return None,
             }
         }
         match element.properties[*list].kind {
             // A length in one byte is read at once.
-            Kind::List { count, item } if count.size() == 1 => Some((offset + 1, item)),
+            PropertyKind::List { count, item } if count.size() == 1 => Some((offset + 1, item)),
             _ => None,
         }
     }
@@ -58,9 +55,9 @@ impl PlyNotation {
         for (number, property) in element.properties.iter().enumerate() {
             // The row was read before: nothing can be wrong with it now.
             match property.kind {
-                Kind::Scalar(scalar) => rows.skip(1, scalar, &row).ok()?,
-                Kind::List { count, item } => {
-                    let count = list_length(&mut rows, count, &row).ok()?;
+                PropertyKind::Scalar(scalar) => rows.skip(1, scalar, &row).ok()?,
+                PropertyKind::List { count, item } => {
+                    let count = rows.list_length(count, &row).ok()?;
                     if number == *list {
                         return Some((rows.at(), count, item));
                     }
@@ -150,18 +147,12 @@ fn unsigned<const BIG: bool>(bytes: &[u8]) -> usize {
 }
 
 impl Notation for PlyNotation {
-    fn write_face(
-        &self,
-        _number: usize,
-        record: &[u8],
-        change: Change<'_>,
-        scratch: &mut Vec<Range<usize>>,
-        out: &mut Vec<u8>,
-    ) {
+    fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>) {
+        let change = rewrite.change;
         if let (Some((1, item)), Ok(row)) = (self.first_corner, <&[u8; 13]>::try_from(record))
             && (item.size(), row[0]) == (4, 3)
         {
-            out.extend_from_slice(&match self.encoding {
+            rewrite.out.extend_from_slice(&match self.encoding {
                 Encoding::BigEndian => triangle_row::<true>(row, change),
                 _ => triangle_row::<false>(row, change),
             });
@@ -178,18 +169,23 @@ impl Notation for PlyNotation {
             Encoding::BigEndian => self.corners(Binary::<true>::new(record, 0)),
         };
         let Some(corners) = corners else {
-            return out.extend_from_slice(record);
+            return rewrite.out.extend_from_slice(record);
         };
         match self.encoding {
             Encoding::Ascii => {
                 let (start, count, _) = corners;
-                scratch.clear();
-                scratch.extend(Tokens::plain(record, start).take(count));
-                let vertex_of = |number| usize::try_from(number).ok();
-                write_corners(record, scratch, change, 0, vertex_of, out);
+                rewrite.corners.clear();
+                rewrite
+                    .corners
+                    .extend(Tokens::plain(record, start).take(count));
+                rewrite.write_corners(record, 0, vertex_from_zero);
             }
-            Encoding::LittleEndian => Self::write_binary::<false>(record, corners, change, out),
-            Encoding::BigEndian => Self::write_binary::<true>(record, corners, change, out),
+            Encoding::LittleEndian => {
+                Self::write_binary::<false>(record, corners, change, rewrite.out);
+            }
+            Encoding::BigEndian => {
+                Self::write_binary::<true>(record, corners, change, rewrite.out);
+            }
         }
     }
 }

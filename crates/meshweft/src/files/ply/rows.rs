@@ -1,14 +1,8 @@
 //! Reading the rows of a PLY file, ascii or binary, value by value.
 
-use super::header::{Element, Kind, Property, Scalar};
-use crate::files::error::FileErrorKind;
+use super::header::{Element, Property, PropertyKind, Scalar};
+use crate::files::error::{Fault, FileErrorKind};
 use crate::files::text::{Tokens, coordinate, is_blank, is_line_end, shown, whole_number};
-
-/// What is wrong, and the byte where.
-pub(super) struct Fault {
-    pub(super) at: usize,
-    pub(super) kind: FileErrorKind,
-}
 
 /// The row that is being read, for errors.
 #[derive(Clone, Copy)]
@@ -21,8 +15,7 @@ impl Row<'_> {
     #[cold]
     pub(super) fn malformed(&self, at: usize, text: impl std::fmt::Display) -> Fault {
         let text = format!("{} {}: {text}", self.element.name, self.number);
-        let kind = FileErrorKind::malformed(text);
-        Fault { at, kind }
+        Fault::malformed(at, text)
     }
 
     #[cold]
@@ -47,6 +40,13 @@ pub(super) trait Rows {
     fn float(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<f32, Fault>;
     /// A whole number; the type is not a float.
     fn whole(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault>;
+    /// The number of entries of a list, which stands before them.
+    fn list_length(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<usize, Fault> {
+        let at = self.at();
+        let length = self.whole(scalar, row)?;
+        let fits = usize::try_from(length);
+        fits.map_err(|_| row.malformed(at, format!("a list of {length} entries")))
+    }
     /// How many bytes are left.
     fn left(&self) -> usize;
     /// How many rows of the element can be there, by the bytes that are left.
@@ -79,7 +79,7 @@ pub(super) trait Rows {
 pub(super) struct TriangleLayout {
     /// Bytes before the list.
     before: usize,
-    /// Bytes behind it.
+    /// Bytes after it.
     after: usize,
     /// Whether a corner may be negative.
     is_signed: bool,
@@ -89,17 +89,17 @@ impl TriangleLayout {
     /// The layout of an element's rows, if they have it.
     pub(super) fn of(element: &Element, list: usize) -> Option<Self> {
         let size = |property: &Property| match property.kind {
-            Kind::Scalar(scalar) => Some(scalar.size()),
-            Kind::List { .. } => None,
+            PropertyKind::Scalar(scalar) => Some(scalar.size()),
+            PropertyKind::List { .. } => None,
         };
         let (before, rest) = element.properties.split_at_checked(list)?;
         let (list, after) = rest.split_first()?;
         let is_signed = match list.kind {
-            Kind::List {
+            PropertyKind::List {
                 count: Scalar::U8 | Scalar::I8,
                 item: Scalar::I32,
             } => true,
-            Kind::List {
+            PropertyKind::List {
                 count: Scalar::U8 | Scalar::I8,
                 item: Scalar::U32,
             } => false,
@@ -154,7 +154,7 @@ impl Rows for Ascii<'_> {
     #[inline]
     fn end_row(&mut self, row: &Row<'_>) -> Result<usize, Fault> {
         let end = self.tokens.at();
-        // A line with more values than declared would shift all rows behind it.
+        // A line with more values than declared would shift all rows after it.
         let rest = self.source[end..].iter();
         match rest.copied().find(|&byte| !is_blank(byte)) {
             Some(byte) if !is_line_end(byte) => {
@@ -304,7 +304,7 @@ impl<const BIG: bool> Rows for Binary<'_, BIG> {
         let mut offsets = Vec::with_capacity(element.properties.len());
         let mut length = 0;
         for property in &element.properties {
-            let Kind::Scalar(scalar) = property.kind else {
+            let PropertyKind::Scalar(scalar) = property.kind else {
                 return None;
             };
             offsets.push((length, scalar));

@@ -4,10 +4,11 @@
 
 use std::ops::Range;
 
-use super::Facets;
+use super::facets::Facets;
 use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::files::records::{Spans, check_face_count};
-use crate::files::splice::{Change, Notation, write_corners};
+use crate::files::face_records::check_face_count;
+use crate::files::slots::Spans;
+use crate::files::splice::{Notation, Rewrite};
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
 };
@@ -24,7 +25,7 @@ pub(super) fn start(bytes: &[u8]) -> Option<usize> {
 }
 
 pub(super) fn read(text: &[u8], at: usize, limits: &Limits) -> Result<Facets, Problem> {
-    let mut reader = Reader {
+    let mut reader = AsciiStlReader {
         text,
         tokens: Tokens::plain(text, at),
         spans: Spans::new(),
@@ -52,7 +53,7 @@ pub(super) fn read(text: &[u8], at: usize, limits: &Limits) -> Result<Facets, Pr
     })
 }
 
-struct Reader<'a> {
+struct AsciiStlReader<'a> {
     text: &'a [u8],
     tokens: Tokens<'a>,
     spans: Spans,
@@ -62,7 +63,7 @@ struct Reader<'a> {
     name: Option<Range<usize>>,
 }
 
-impl Reader<'_> {
+impl AsciiStlReader<'_> {
     /// Reads what follows the word `solid`.
     fn solid(&mut self, number: usize, limits: &Limits) -> Result<(), Problem> {
         let name = self.rest_of_line();
@@ -97,7 +98,7 @@ impl Reader<'_> {
             // depends on a normal.
             if !number.iter().all(u8::is_ascii_graphic) {
                 let text = format!(
-                    "facet {facet}: {} is no part of a normal: write a number",
+                    "facet {facet}: {} is not part of a normal: write a number",
                     shown(number)
                 );
                 return Err(self.problem(token.start, FileErrorKind::malformed(text)));
@@ -179,23 +180,16 @@ impl Reader<'_> {
 pub(super) struct AsciiNotation;
 
 impl Notation for AsciiNotation {
-    fn write_face(
-        &self,
-        _number: usize,
-        record: &[u8],
-        change: Change<'_>,
-        scratch: &mut Vec<Range<usize>>,
-        out: &mut Vec<u8>,
-    ) {
+    fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>) {
         let mut tokens = Tokens::plain(record, 0);
-        scratch.clear();
+        rewrite.corners.clear();
         // "facet normal i j k outer loop", then three times "vertex x y z".
         for skipped in [8, 1, 1] {
             if let (Some(x), Some(_), Some(z)) = (tokens.nth(skipped), tokens.next(), tokens.next())
             {
-                scratch.push(x.start..z.end);
+                rewrite.corners.push(x.start..z.end);
             }
         }
-        write_corners(record, scratch, change, 0, |_| None, out);
+        rewrite.write_corners(record, 0, |_| None);
     }
 }

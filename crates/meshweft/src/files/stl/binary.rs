@@ -1,14 +1,13 @@
 //! Binary STL: 80 bytes of anything, a count, 50 bytes a facet.
 
-use std::ops::Range;
-
-use super::Facets;
+use super::facets::Facets;
 use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::files::records::{Spans, check_face_count};
-use crate::files::splice::{Change, Notation};
+use crate::files::face_records::check_face_count;
+use crate::files::slots::Spans;
+use crate::files::splice::{Notation, Rewrite};
 use crate::limits::Limits;
 
-/// Where the first facet starts: behind the header and the count.
+/// Where the first facet starts: after the header and the count.
 const HEADER: usize = 84;
 /// A normal, three positions, two bytes of attributes.
 const FACET: usize = 50;
@@ -81,14 +80,8 @@ fn positions(facet: &[u8]) -> [[u32; 3]; 3] {
 pub(super) struct BinaryNotation;
 
 impl Notation for BinaryNotation {
-    fn write_face(
-        &self,
-        _number: usize,
-        record: &[u8],
-        change: Change<'_>,
-        _scratch: &mut Vec<Range<usize>>,
-        out: &mut Vec<u8>,
-    ) {
+    fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>) {
+        let Rewrite { change, out, .. } = rewrite;
         out.extend_from_slice(&record[..NORMAL]);
         for corner in 0..3 {
             let start = NORMAL + change.turned(corner, 3) * POSITION;

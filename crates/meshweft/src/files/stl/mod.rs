@@ -1,6 +1,6 @@
 //! STL, binary or ascii: facets move, each with its normal and its attribute bytes.
 //!
-//! Three choices stand behind what is done here:
+//! Three choices were made here:
 //!
 //! - STL stores no vertices, only positions. Corners whose three numbers have the same bits are
 //!   one vertex, and vertices are numbered by these bits: a mesh keeps its numbers whatever order
@@ -13,20 +13,27 @@
 
 mod ascii;
 mod binary;
+mod facets;
 
 use std::collections::HashMap;
 
+use super::content::ReadResult;
+use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place};
-use super::records::{FaceRecords, Spans, check_vertex_count};
+use super::face_records::{FaceRecords, check_vertex_count};
+use super::note::Note;
+use super::options::ReadOptions;
+use super::slots::Spans;
 use super::splice::{Notation, Orders, RecordFile};
-use super::{MeshEntry, Note, ReadResult};
 use crate::Mesh;
 use crate::limits::{Limits, index32};
+use facets::Facets;
 
 /// Reads an STL file.
 ///
 /// Time O(bytes + vertices log vertices), memory a few times the bytes.
-pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
+pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
+    let limits = &options.limits;
     match ascii::start(&bytes) {
         Some(at) if !binary::is_sure(&bytes) => {
             let facets = ascii::read(&bytes, at, limits)?;
@@ -39,15 +46,6 @@ pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
     }
 }
 
-/// The facets of a file.
-struct Facets {
-    spans: Spans,
-    /// The bits of the positions of each facet's corners.
-    corners: Vec<[[u32; 3]; 3]>,
-    runs: Vec<u32>,
-    name: String,
-}
-
 fn content<N: Notation + 'static>(
     source: Vec<u8>,
     facets: Facets,
@@ -56,8 +54,7 @@ fn content<N: Notation + 'static>(
 ) -> ReadResult {
     let (mut entries, mut notes) = (Vec::new(), Vec::new());
     if facets.corners.is_empty() {
-        let text = "no faces: there is nothing to order";
-        notes.push(Note::new(Place::File, text));
+        notes.push(Note::nothing_to_order());
     } else {
         let mesh = welded(&facets.corners, limits).map_err(|kind| kind.at(Place::File))?;
         entries.push(MeshEntry {

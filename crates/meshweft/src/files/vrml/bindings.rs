@@ -1,11 +1,13 @@
 //! What moves with the faces and vertices of a face set, and what keeps it from moving.
 
-use super::lexer::{Fault, index};
+use super::lexer::index;
 use super::lists::{Groups, Polygons, positions};
 use super::scene::{Child, FaceSet, List, Role, Scene};
 use crate::Mesh;
-use crate::files::MeshEntry;
-use crate::files::records::{FaceRecords, Spans, check_vertex_count, past_the_last_vertex};
+use crate::files::entry::MeshEntry;
+use crate::files::error::Fault;
+use crate::files::face_records::{FaceRecords, check_vertex_count, corner_vertex};
+use crate::files::slots::Spans;
 use crate::limits::{Limits, index32};
 
 /// Where the records of a face set stand.
@@ -105,7 +107,7 @@ impl Binder<'_> {
         let count = corners.records.len();
         let mut runs = vec![0];
         if corners.is_open && count > 1 {
-            // The last polygon has no -1 behind it, and would need one anywhere else.
+            // The last polygon has no -1 after it, and would need one anywhere else.
             runs.push(index32(count - 1));
         }
         let malformed = |error: crate::MeshError| {
@@ -169,12 +171,12 @@ impl Binder<'_> {
     }
 
     /// Reads `coordIndex`.
-    fn corners(&self, set: &FaceSet, vertex_count: usize) -> Result<Corners, Stop> {
+    fn corners(&self, set: &FaceSet, vertex_count: usize) -> Result<CoordIndex, Stop> {
         let list = set.indices[Role::Coord as usize]
             .as_ref()
             .unwrap_or(&List::EMPTY);
         let mut polygons = Polygons::new(self.text, list);
-        let mut found = Corners {
+        let mut found = CoordIndex {
             records: FaceRecords::default(),
             spans: Spans::new(),
             is_open: false,
@@ -186,13 +188,8 @@ impl Binder<'_> {
             let at = polygon.span.start;
             corners.clear();
             for (corner, &number) in polygons.numbers.iter().enumerate() {
-                let vertex = u32::try_from(number).ok();
-                let vertex = vertex.filter(|&vertex| (vertex as usize) < vertex_count);
-                corners.push(vertex.ok_or_else(|| {
-                    let last = vertex_count.checked_sub(1);
-                    let kind = past_the_last_vertex("face", face, corner, number, last);
-                    Fault { at, kind }
-                })?);
+                let vertex = corner_vertex(number, vertex_count, face, corner);
+                corners.push(vertex.map_err(|kind| Fault { at, kind })?);
             }
             found.has_empty |= corners.is_empty();
             found.is_open |= polygon.is_open;
@@ -208,7 +205,7 @@ impl Binder<'_> {
         &self,
         set: &FaceSet,
         role: Role,
-        corners: &Corners,
+        corners: &CoordIndex,
         slots: &mut Slots,
     ) -> Result<(), Stop> {
         let (field, index_field) = (role.field(), role.index_field());
@@ -252,7 +249,7 @@ impl Binder<'_> {
         set: &FaceSet,
         role: Role,
         vertex_count: usize,
-        corners: &mut Corners,
+        corners: &mut CoordIndex,
         slots: &mut Slots,
     ) -> Result<Option<String>, Stop> {
         let child = &set.children[role as usize];
@@ -295,7 +292,7 @@ impl Binder<'_> {
         &self,
         set: &FaceSet,
         list: &List,
-        corners: &mut Corners,
+        corners: &mut CoordIndex,
     ) -> Result<Option<Spans>, Fault> {
         let first = set.indices[Role::Coord as usize].as_ref();
         let mut first = Polygons::new(self.text, first.unwrap_or(&List::EMPTY));
@@ -339,10 +336,10 @@ fn of_used(points: &[[f32; 3]], mut faces: Vec<[u32; 3]>) -> Result<Mesh, crate:
 }
 
 /// What `coordIndex` holds.
-struct Corners {
+struct CoordIndex {
     records: FaceRecords,
     spans: Spans,
-    /// Whether the last polygon of some list has no -1 behind it.
+    /// Whether the last polygon of some list has no -1 after it.
     is_open: bool,
     has_empty: bool,
 }

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use super::lexer::{Fault, Token, is_number};
-use super::nodes::Reader;
+use super::lexer::{Token, is_number};
+use super::reader::VrmlReader;
 use super::scene::{List, Role};
-use crate::files::error::FileErrorKind;
+use crate::files::error::{Fault, FileErrorKind};
 use crate::files::text::shown;
 
-impl Reader<'_> {
+impl VrmlReader<'_> {
     /// Reads a field of a face set.
     pub(super) fn face_set_word(&mut self, span: Range<usize>) -> Result<(), Fault> {
         let word = &self.text[span.clone()];
@@ -63,7 +63,7 @@ impl Reader<'_> {
             b"TRUE" => Ok(Some(false)),
             b"FALSE" => Ok(Some(true)),
             b"IS" => {
-                self.name_behind("IS")?;
+                self.name_after("IS")?;
                 Ok(None)
             }
             other => {
@@ -73,12 +73,12 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the list behind the field at `field`; `None` if it `IS` one of a PROTO.
+    /// Reads the list after the field at `field`; `None` if it `IS` one of a PROTO.
     pub(super) fn list(&mut self, field: Range<usize>) -> Result<Option<List>, Fault> {
         let first = self.lexer.clone().token()?;
         if matches!(&first, Some(Token::Word(word)) if &self.text[word.clone()] == b"IS") {
             self.lexer.word();
-            self.name_behind("IS")?;
+            self.name_after("IS")?;
             return Ok(None);
         }
         let in_brackets = matches!(first, Some(Token::Mark(b'[', _)));
@@ -130,13 +130,13 @@ impl Reader<'_> {
             let end = word.iter().position(|&b| b == b'.');
             &word[..end.unwrap_or(word.len())]
         };
-        let from = self.name_behind("ROUTE")?;
+        let from = self.name_after("ROUTE")?;
         self.scene.routed.insert(node(from));
         // Dots may be words of their own.
         for _ in 0..3 {
-            let word = self.name_behind("ROUTE")?;
+            let word = self.name_after("ROUTE")?;
             if &text[word] == b"TO" {
-                let to = self.name_behind("TO")?;
+                let to = self.name_after("TO")?;
                 self.scene.routed.insert(node(to));
                 return Ok(());
             }
@@ -145,12 +145,12 @@ impl Reader<'_> {
     }
 
     /// The word that must follow `keyword`.
-    pub(super) fn name_behind(&mut self, keyword: &str) -> Result<Range<usize>, Fault> {
+    pub(super) fn name_after(&mut self, keyword: &str) -> Result<Range<usize>, Fault> {
         let word = self.lexer.word();
         word.ok_or_else(|| {
             let at = self.lexer.at();
             match at < self.text.len() {
-                true => Fault::malformed(at, format!("no name behind {keyword}")),
+                true => Fault::malformed(at, format!("no name after {keyword}")),
                 false => {
                     let kind = FileErrorKind::truncated(format!("what follows {keyword}"));
                     Fault { at, kind }

@@ -4,26 +4,8 @@
 
 use std::ops::Range;
 
-use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::files::text::{is_line_end, line_end, line_of, whole_number};
-
-/// What is wrong, and the byte where.
-#[derive(Debug)]
-pub(super) struct Fault {
-    pub(super) at: usize,
-    pub(super) kind: FileErrorKind,
-}
-
-impl Fault {
-    pub(super) fn malformed(at: usize, text: impl Into<String>) -> Self {
-        let kind = FileErrorKind::malformed(text);
-        Self { at, kind }
-    }
-
-    pub(super) fn problem(self, source: &[u8]) -> Problem {
-        self.kind.at(Place::Line(line_of(source, self.at)))
-    }
-}
+use crate::files::error::{Fault, FileErrorKind};
+use crate::files::text::{is_line_end, line_end, whole_number};
 
 /// A token and where it stands.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,7 +104,7 @@ impl<'a> Lexer<'a> {
         let start = self.at;
         self.at += 1;
         while let Some(&byte) = self.text.get(self.at) {
-            // Whatever is behind a backslash belongs to the string.
+            // Whatever comes after a backslash belongs to the string.
             self.at += if byte == b'\\' { 2 } else { 1 };
             if byte == b'"' {
                 return Ok(());
@@ -145,7 +127,7 @@ pub(super) fn index(word: &[u8]) -> Option<i64> {
         return Some(number);
     }
     let digits = word.strip_prefix(b"0x").or(word.strip_prefix(b"0X"))?;
-    // A sign is no hexadecimal digit.
+    // A sign is not a hexadecimal digit.
     let digits = std::str::from_utf8(digits).ok();
     let digits = digits.filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()))?;
     i64::from_str_radix(digits, 16).ok()

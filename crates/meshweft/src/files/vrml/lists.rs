@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use super::lexer::{Fault, Lexer, index};
+use super::lexer::{Lexer, index};
 use super::scene::List;
-use crate::files::records::Spans;
+use crate::files::error::Fault;
+use crate::files::slots::Spans;
 use crate::files::text::{coordinate, shown};
 
 /// Three numbers a vertex; where each stands goes to `spans`.
@@ -39,7 +40,7 @@ pub(super) fn positions(
 /// A polygon with its -1.
 pub(super) struct Polygon {
     pub(super) span: Range<usize>,
-    /// There is no -1 behind it: it is the last.
+    /// There is no -1 after it: it is the last.
     pub(super) is_open: bool,
 }
 

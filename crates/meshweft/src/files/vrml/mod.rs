@@ -1,6 +1,6 @@
 //! VRML97 (VRML 2.0): the faces and vertices of every `IndexedFaceSet` move.
 //!
-//! Four choices stand behind what is done here:
+//! Four choices were made here:
 //!
 //! - A face record is the numbers of a polygon with its -1, wherever lines end. The polygons of
 //!   `texCoordIndex`, `colorIndex` and `normalIndex` go along, and what goes by face (indices, or
@@ -16,18 +16,21 @@ mod fields;
 mod lexer;
 mod lists;
 mod nodes;
+mod reader;
 mod scene;
 
 use std::collections::BTreeMap;
-use std::io;
 use std::ops::Range;
 use std::path::Path;
+use std::{fmt, io};
 
+use super::content::{Content, OutputFile, ReadResult};
+use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
-use super::splice::{Change, Layer, Orders, record_in, splice};
-use super::text::{is_line_end, push_number};
-use super::{Content, MeshEntry, Note, OutputFile, ReadResult};
-use crate::limits::Limits;
+use super::note::Note;
+use super::options::ReadOptions;
+use super::splice::{Change, Layer, Orders, Rewrite, record_in, splice};
+use super::text::is_line_end;
 use crate::permutation::{FaceOrder, VertexOrder};
 use bindings::{Binder, Slots, Stop};
 use lexer::{Lexer, index};
@@ -36,27 +39,28 @@ use lexer::{Lexer, index};
 ///
 /// Time O(bytes), but for names and vertices of shared coordinates that are sorted; memory a few
 /// times the bytes, and less than 2 KiB for each face set.
-pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
+pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
+    let limits = &options.limits;
     let at = header(&bytes)?;
-    let scene = nodes::read(&bytes, at, limits).map_err(|fault| fault.problem(&bytes))?;
+    let scene = nodes::read(&bytes, at, limits).map_err(|fault| fault.on_its_line(&bytes))?;
     let mut binder = Binder {
         text: &bytes,
         scene: &scene,
         limits,
         shared: vec![None; scene.coordinates.len()],
     };
+
     let (mut entries, mut sets) = (Vec::new(), Vec::new());
-    let stays = |why: &str| format!("the mesh stays as it is: {why}");
     let mut said = Said::default();
     for (at, why) in &scene.refused {
-        said.add(*at, stays(why));
+        said.add(*at, Stays::Mesh(why.to_string()));
     }
     for (number, set) in scene.face_sets.iter().enumerate() {
-        let mut note = |text| said.add(set.span.start, text);
+        let at = set.span.start;
         match binder.bind(set, number) {
             Ok(bound) => {
                 if let Some(why) = bound.vertices_stay {
-                    note(format!("the vertices stay where they are: {why}"));
+                    said.add(at, Stays::Vertices(why));
                 }
                 let mut entry = bound.entry;
                 entry.vertex_group = entries.len();
@@ -67,14 +71,14 @@ pub(super) fn read(bytes: Vec<u8>, limits: &Limits) -> ReadResult {
                     orders: Orders::default(),
                 });
             }
-            Err(Stop::Stays(why)) => note(stays(&why)),
-            Err(Stop::Fault(fault)) => return Err(fault.problem(&bytes)),
+            Err(Stop::Stays(why)) => said.add(at, Stays::Mesh(why)),
+            Err(Stop::Fault(fault)) => return Err(fault.on_its_line(&bytes)),
         }
     }
+
     let mut notes = said.notes(&bytes);
     if entries.is_empty() && notes.is_empty() {
-        let text = "no faces: there is nothing to order";
-        notes.push(Note::new(Place::File, text));
+        notes.push(Note::nothing_to_order());
     }
     let file = VrmlFile {
         source: bytes,
@@ -114,14 +118,30 @@ fn header(bytes: &[u8]) -> Result<usize, Problem> {
     Err(kind.at(Place::Line(1)))
 }
 
+/// What stays as it is, and why.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+enum Stays {
+    Mesh(String),
+    Vertices(String),
+}
+
+impl Stays {
+    fn note(self, place: Place) -> Note {
+        match self {
+            Self::Mesh(why) => Note::new(place, format!("the mesh stays as it is: {why}")),
+            Self::Vertices(why) => Note::vertices_stay(place, why),
+        }
+    }
+}
+
 /// What is said of places in the text: each thing once, with its first place and how many there
 /// are.
 #[derive(Default)]
-struct Said(BTreeMap<String, (usize, usize)>);
+struct Said(BTreeMap<Stays, (usize, usize)>);
 
 impl Said {
-    fn add(&mut self, at: usize, text: String) {
-        let (first, count) = self.0.entry(text).or_insert((at, 0));
+    fn add(&mut self, at: usize, what: Stays) {
+        let (first, count) = self.0.entry(what).or_insert((at, 0));
         *first = at.min(*first);
         *count += 1;
     }
@@ -131,7 +151,7 @@ impl Said {
         let mut said: Vec<_> = self.0.into_iter().collect();
         said.sort_by_key(|&(_, (at, _))| at);
         let (mut counted, mut line) = (0, 1);
-        let notes = said.into_iter().map(|(said, (at, count))| {
+        let notes = said.into_iter().map(|(what, (at, count))| {
             let ends = (counted..at).filter(|&byte| match text[byte] {
                 b'\r' => text.get(byte + 1) != Some(&b'\n'),
                 byte => is_line_end(byte),
@@ -140,7 +160,7 @@ impl Said {
             counted = at;
             Note {
                 more: count - 1,
-                ..Note::new(Place::Line(line), said)
+                ..what.note(Place::Line(line))
             }
         });
         notes.collect()
@@ -185,7 +205,7 @@ impl Set {
         let old_to_new = old_to_new.as_slice();
         let mut layers = Vec::new();
         for (list, spans) in self.slots.polygons.iter().enumerate() {
-            let mut words = Vec::new();
+            let mut corners = Vec::new();
             layers.push(Layer::new(spans, move |slots, out| {
                 for slot in slots {
                     let change = Change {
@@ -195,7 +215,14 @@ impl Set {
                     let record = &source[spans.span(record_in(&orders.records, slot))];
                     match change.is_nothing() {
                         true => out.extend_from_slice(record),
-                        false => write_polygon(record, change, &mut words, out),
+                        false => write_polygon(
+                            record,
+                            Rewrite {
+                                change,
+                                corners: &mut corners,
+                                out,
+                            },
+                        ),
                     }
                 }
             }));
@@ -213,35 +240,30 @@ impl Set {
 }
 
 /// Appends a polygon with its corners turned and renumbered; what is between them is copied.
-fn write_polygon(
-    record: &[u8],
-    change: Change<'_>,
-    words: &mut Vec<Range<usize>>,
-    out: &mut Vec<u8>,
-) {
-    words.clear();
+fn write_polygon(record: &[u8], rewrite: Rewrite<'_>) {
+    let corners = &mut *rewrite.corners;
+    corners.clear();
     let mut lexer = Lexer::new(record, 0);
-    words.extend(std::iter::from_fn(|| lexer.word()));
-    let is_closed = words
+    corners.extend(std::iter::from_fn(|| lexer.word()));
+    let is_closed = corners
         .last()
         .is_some_and(|last| index(&record[last.clone()]) == Some(-1));
-    words.truncate(words.len() - usize::from(is_closed));
-    let mut copied = 0;
-    for (corner, slot) in words.iter().enumerate() {
-        out.extend_from_slice(&record[copied..slot.start]);
-        copied = slot.end;
-        let token = &record[words[change.turned(corner, words.len())].clone()];
-        let renewed = index(token).and_then(|number| {
-            let old = usize::try_from(number).ok()?;
-            let new = *change.old_to_new.get(old)?;
-            (new as usize != old).then_some(new)
-        });
-        match renewed {
-            Some(new) => push_number(out, u64::from(new)),
-            None => out.extend_from_slice(token),
-        }
+    corners.truncate(corners.len() - usize::from(is_closed));
+
+    let vertex_of = |corner: &[u8]| {
+        let vertex = usize::try_from(index(corner)?).ok()?;
+        Some((vertex, corner.len()))
+    };
+    rewrite.write_corners(record, 0, vertex_of);
+}
+
+impl fmt::Debug for VrmlFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("VrmlFile")
+            .field("bytes", &self.source.len())
+            .field("face_sets", &self.sets.len())
+            .finish()
     }
-    out.extend_from_slice(&record[copied..]);
 }
 
 impl Content for VrmlFile {

@@ -7,9 +7,10 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::lexer::{Fault, Lexer, Token};
+use super::lexer::{Lexer, Token};
+use super::reader::{Frame, FrameKind, VrmlReader};
 use super::scene::{Child, FaceSet, List, Role, Scene};
-use crate::files::error::FileErrorKind;
+use crate::files::error::{Fault, FileErrorKind};
 use crate::files::text::shown;
 use crate::limits::Limits;
 
@@ -17,7 +18,7 @@ use crate::limits::Limits;
 ///
 /// Time O(bytes).
 pub(super) fn read<'a>(text: &'a [u8], at: usize, limits: &Limits) -> Result<Scene<'a>, Fault> {
-    let mut reader = Reader {
+    let mut reader = VrmlReader {
         text,
         nesting: limits.nesting,
         lexer: Lexer::new(text, at),
@@ -42,50 +43,7 @@ pub(super) fn read<'a>(text: &'a [u8], at: usize, limits: &Limits) -> Result<Sce
     Ok(reader.scene)
 }
 
-/// What is open.
-struct Frame {
-    at: usize,
-    close: u8,
-    /// The name of the nearest node with one.
-    name: Option<Range<usize>>,
-    kind: Kind,
-}
-
-enum Kind {
-    Other,
-    Script,
-    /// The interface of a `PROTO`; its body follows.
-    Interface,
-    Body,
-    FaceSet(Box<FaceSet>, Option<Role>),
-    /// A node with a list that is looked at; on a face set unless it is a `Coordinate` elsewhere.
-    Points {
-        role: Role,
-        on_face_set: bool,
-        own_name: Option<Range<usize>>,
-        list: Option<List>,
-        /// There is something else in it.
-        is_odd: bool,
-    },
-}
-
-pub(super) struct Reader<'a> {
-    pub(super) text: &'a [u8],
-    pub(super) lexer: Lexer<'a>,
-    pub(super) scene: Scene<'a>,
-    /// Most brackets inside each other.
-    nesting: usize,
-    frames: Vec<Frame>,
-    /// The coordinates by name, and names of other nodes; a `PROTO` has names of its own.
-    scopes: Vec<HashMap<&'a [u8], Option<usize>>>,
-    /// The name of the node that comes next.
-    name: Option<Range<usize>>,
-    /// The word just read.
-    pub(super) word: Option<Range<usize>>,
-    protos: usize,
-}
-
-impl<'a> Reader<'a> {
+impl<'a> VrmlReader<'a> {
     fn token(&mut self, token: Token) -> Result<(), Fault> {
         let word = self.word.take();
         match token {
@@ -102,7 +60,7 @@ impl<'a> Reader<'a> {
             }
             Token::Mark(b'[', at) => {
                 self.odd("a list");
-                self.open(at, b']', None, Kind::Other)
+                self.open(at, b']', None, FrameKind::Other)
             }
             Token::Mark(mark, at) => self.close(mark, at),
         }
@@ -111,7 +69,7 @@ impl<'a> Reader<'a> {
     fn keyword(&mut self, span: Range<usize>) -> Result<(), Fault> {
         match &self.text[span.clone()] {
             b"DEF" => {
-                let name = self.name_behind("DEF")?;
+                let name = self.name_after("DEF")?;
                 if let Some(scope) = self.scopes.last_mut()
                     && let Some(coordinates) = scope.get_mut(&self.text[name.clone()])
                 {
@@ -120,7 +78,7 @@ impl<'a> Reader<'a> {
                 self.name = Some(name);
             }
             b"USE" => {
-                let name = self.name_behind("USE")?;
+                let name = self.name_after("USE")?;
                 let name = &self.text[name];
                 self.scene.used.insert(name);
                 let scope = self.scopes.last();
@@ -129,15 +87,17 @@ impl<'a> Reader<'a> {
             }
             b"NULL" => self.child(Child::None),
             b"IS" => {
-                self.name_behind("IS")?;
+                self.name_after("IS")?;
                 self.odd("IS");
             }
             b"ROUTE" => self.route(span.start)?,
             b"PROTO" => {
                 self.odd("PROTO");
-                self.name_behind("PROTO")?;
+                self.name_after("PROTO")?;
                 match self.lexer.token()? {
-                    Some(Token::Mark(b'[', at)) => self.open(at, b']', None, Kind::Interface)?,
+                    Some(Token::Mark(b'[', at)) => {
+                        self.open(at, b']', None, FrameKind::Interface)?
+                    }
                     _ => {
                         let text = "a PROTO without the [ of its interface";
                         return Err(Fault::malformed(span.start, text));
@@ -157,15 +117,15 @@ impl<'a> Reader<'a> {
             return Ok(());
         };
         match &mut frame.kind {
-            Kind::Script if matches!(word, b"SFNode" | b"MFNode") => {
+            FrameKind::Script if matches!(word, b"SFNode" | b"MFNode") => {
                 self.scene.script_reads_nodes = true;
             }
-            Kind::Points { role, .. } => {
+            FrameKind::Points { role, .. } => {
                 let role = *role;
                 if word == role.names()[2].as_bytes() {
                     let found = self.list(span)?;
                     if let Some(Frame {
-                        kind: Kind::Points { list, is_odd, .. },
+                        kind: FrameKind::Points { list, is_odd, .. },
                         ..
                     }) = self.frames.last_mut()
                     {
@@ -176,19 +136,11 @@ impl<'a> Reader<'a> {
                 }
                 self.odd("another field");
             }
-            Kind::FaceSet(..) => return self.face_set_word(span),
+            FrameKind::FaceSet(..) => return self.face_set_word(span),
             _ => {}
         }
         self.word = Some(span);
         Ok(())
-    }
-
-    /// The face set whose fields are being read, and the field that waits for its node.
-    pub(super) fn face_set(&mut self) -> Option<(&mut FaceSet, &mut Option<Role>)> {
-        match &mut self.frames.last_mut()?.kind {
-            Kind::FaceSet(set, role) => Some((set, role)),
-            _ => None,
-        }
     }
 
     /// Gives the face set its node, if it waits for one.
@@ -207,8 +159,8 @@ impl<'a> Reader<'a> {
     /// Notes that the face set, or a node that hangs on it, holds what is not understood.
     fn odd(&mut self, what: &str) {
         match self.frames.last_mut().map(|frame| &mut frame.kind) {
-            Some(Kind::FaceSet(set, _)) => set.obstacle(format!("{what} stands in it")),
-            Some(Kind::Points { is_odd, .. }) => *is_odd = true,
+            Some(FrameKind::FaceSet(set, _)) => set.obstacle(format!("{what} stands in it")),
+            Some(FrameKind::Points { is_odd, .. }) => *is_odd = true,
             _ => {}
         }
     }
@@ -220,7 +172,7 @@ impl<'a> Reader<'a> {
         let at = node.start;
         let kind = &self.text[node];
         let waiting = self.face_set().map(|(_, role)| role.take());
-        let points = |role, on_face_set, own_name| Kind::Points {
+        let points = |role, on_face_set, own_name| FrameKind::Points {
             role,
             on_face_set,
             own_name,
@@ -236,7 +188,7 @@ impl<'a> Reader<'a> {
             }
             (Some(_), other) => {
                 self.odd(&format!("a node of type {}", shown(other)));
-                Kind::Other
+                FrameKind::Other
             }
             (None, b"IndexedFaceSet") => {
                 let set = FaceSet {
@@ -246,11 +198,11 @@ impl<'a> Reader<'a> {
                     in_proto: self.protos > 0,
                     ..FaceSet::default()
                 };
-                Kind::FaceSet(Box::new(set), None)
+                FrameKind::FaceSet(Box::new(set), None)
             }
             (None, b"Coordinate") => points(Role::Coord, false, own_name),
-            (None, b"Script") => Kind::Script,
-            (None, _) => Kind::Other,
+            (None, b"Script") => FrameKind::Script,
+            (None, _) => FrameKind::Other,
         };
         self.open(at, b'}', name, kind)
     }
@@ -260,7 +212,7 @@ impl<'a> Reader<'a> {
         at: usize,
         close: u8,
         name: Option<Range<usize>>,
-        kind: Kind,
+        kind: FrameKind,
     ) -> Result<(), Fault> {
         if self.frames.len() >= self.nesting {
             let kind = FileErrorKind::OverLimit {
@@ -288,19 +240,19 @@ impl<'a> Reader<'a> {
             return Err(Fault::malformed(at, text));
         };
         match frame.kind {
-            Kind::Interface => match self.lexer.token()? {
+            FrameKind::Interface => match self.lexer.token()? {
                 Some(Token::Mark(b'{', at)) => {
                     self.protos += 1;
                     self.scopes.push(HashMap::new());
-                    self.open(at, b'}', None, Kind::Body)?;
+                    self.open(at, b'}', None, FrameKind::Body)?;
                 }
                 _ => return Err(Fault::malformed(at, "a PROTO without the { of its body")),
             },
-            Kind::Body => {
+            FrameKind::Body => {
                 self.protos -= 1;
                 self.scopes.pop();
             }
-            Kind::FaceSet(mut set, _) => {
+            FrameKind::FaceSet(mut set, _) => {
                 set.span.end = at + 1;
                 let corners = &set.indices[Role::Coord as usize];
                 let has_faces = corners.as_ref().is_some_and(|list| list.count > 0);
@@ -310,7 +262,7 @@ impl<'a> Reader<'a> {
                     None => {}
                 }
             }
-            Kind::Points {
+            FrameKind::Points {
                 role,
                 on_face_set,
                 own_name,
@@ -334,7 +286,7 @@ impl<'a> Reader<'a> {
                     set.hang(role, Child::Own(own_name, list));
                 }
             }
-            Kind::Other | Kind::Script => {}
+            FrameKind::Other | FrameKind::Script => {}
         }
         Ok(())
     }

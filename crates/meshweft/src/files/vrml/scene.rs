@@ -105,7 +105,7 @@ pub(super) struct Scene<'a> {
     pub(super) refused: Vec<(usize, Box<str>)>,
     /// The lists of all `Coordinate` nodes with a name.
     pub(super) coordinates: Vec<List>,
-    /// The names behind `USE`. Only looked up, as all tables of names here.
+    /// The names after `USE`. Only looked up, as all tables of names here.
     pub(super) used: HashSet<&'a [u8]>,
     /// The names in `ROUTE`.
     pub(super) routed: HashSet<&'a [u8]>,

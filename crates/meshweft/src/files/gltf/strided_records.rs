@@ -1,4 +1,4 @@
-//! Records of fixed size in a storage: what a permutation moves.
+//! Records of fixed size in a storage, at equal distances: what a permutation moves.
 
 use super::buffers::Buffers;
 
@@ -6,7 +6,7 @@ use super::buffers::Buffers;
 ///
 /// Two accessors with the same records are the same data, whatever their numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Records {
+pub(super) struct StridedRecords {
     pub(super) storage: usize,
     pub(super) start: usize,
     pub(super) count: usize,
@@ -14,8 +14,8 @@ pub(super) struct Records {
     pub(super) size: usize,
 }
 
-impl Records {
-    /// The byte behind the last record.
+impl StridedRecords {
+    /// The byte after the last record.
     pub(super) fn end(&self) -> usize {
         match self.count {
             0 => self.start,
@@ -70,8 +70,8 @@ impl Records {
 mod tests {
     use super::*;
 
-    fn records(start: usize, count: usize, stride: usize, size: usize) -> Records {
-        Records {
+    fn records(start: usize, count: usize, stride: usize, size: usize) -> StridedRecords {
+        StridedRecords {
             storage: 0,
             start,
             count,
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn overlap_is_what_counting_bytes_gives() {
-        let bytes = |r: &Records| -> Vec<usize> {
+        let bytes = |r: &StridedRecords| -> Vec<usize> {
             let starts = (0..r.count).map(|i| r.start + i * r.stride);
             starts.flat_map(|start| start..start + r.size).collect()
         };

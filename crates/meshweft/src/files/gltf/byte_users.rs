@@ -1,20 +1,23 @@
 //! Who reads which bytes: records are moved only if nobody else looks at them.
 
-use super::accessors::{Accessors, COMPRESSED_VIEW, UNSIGNED_BYTE, UNSIGNED_SHORT};
-use super::json::{Object, Value};
-use super::primitives::{Draft, Primitives};
-use super::records::Records;
 use std::collections::BTreeMap;
+
+use super::accessors::{Accessors, COMPRESSED_VIEW, UNSIGNED_BYTE, UNSIGNED_SHORT};
+use super::json::Value;
+use super::movable::Movable;
+use super::object::Object;
+use super::primitives::Primitives;
+use super::strided_records::StridedRecords;
 
 /// How many pairs of overlapping ranges are looked at before all are taken to be in conflict.
 ///
 /// Honest files have a few pairs for each accessor; only a file made to waste time has millions.
 const MOST_PAIRS: usize = 1 << 24;
 
-/// Records of the file and the drafts that read them.
+/// Records of the file and the movable primitives that read them.
 #[derive(Debug)]
-pub(super) struct Stream {
-    pub(super) records: Records,
+pub(super) struct UsedRecords {
+    pub(super) records: StridedRecords,
     pub(super) index_users: Vec<usize>,
     pub(super) vertex_users: Vec<usize>,
     pub(super) outline_users: Vec<usize>,
@@ -23,14 +26,14 @@ pub(super) struct Stream {
     /// Who reads it as the values of sparse elements.
     pub(super) sparse_value_users: Vec<usize>,
     /// The numbers that these values go with.
-    value_indices: Option<Records>,
+    value_indices: Option<StridedRecords>,
     /// The pointer to something else that reads some of the bytes.
     pub(super) taken_by: Option<String>,
     /// The pointer to the first that reads it, for others' `taken_by`.
     pointer: String,
 }
 
-impl Stream {
+impl UsedRecords {
     fn kinds(&self) -> [&Vec<usize>; 5] {
         [
             &self.index_users,
@@ -68,62 +71,70 @@ impl Stream {
     }
 }
 
-/// All records of the file, rising.
+/// All records of the file, rising, and who reads them.
 #[derive(Debug)]
-pub(super) struct Claims {
-    pub(super) streams: Vec<Stream>,
+pub(super) struct ByteUsers {
+    pub(super) used: Vec<UsedRecords>,
 }
 
-impl Claims {
+impl ByteUsers {
     pub(super) fn new(root: &Object, accessors: &Accessors, primitives: &Primitives) -> Self {
         let mut building = Building::default();
-        for (user, draft) in primitives.drafts.iter().enumerate() {
-            building.add_draft(user, draft);
-            for &number in draft.rare.iter().flat_map(|rare| &rare.unmoved_sparse) {
+
+        // What movable primitives read, and of that what cannot be moved.
+        for (user, primitive) in primitives.movable.iter().enumerate() {
+            building.add_primitive(user, primitive);
+            let uncommon = primitive.uncommon.iter();
+            for &number in uncommon.flat_map(|uncommon| &uncommon.unmoved_sparse) {
                 building.take_sparse(accessors, number);
             }
         }
-        let mut is_moved = vec![false; accessors.len()];
-        for &number in primitives.drafts.iter().flat_map(|draft| &draft.accessors) {
-            if let Some(is_moved) = is_moved.get_mut(number as usize) {
-                *is_moved = true;
-            }
-        }
-        for left in &primitives.left {
-            for &number in &left.accessors {
-                building.take_accessor(accessors, number as usize, &left.position.pointer());
+
+        // What others read.
+        for staying in &primitives.staying {
+            for &number in &staying.accessors {
+                building.take_accessor(accessors, number as usize, &staying.number.pointer());
             }
         }
         for (number, pointer) in other_users(root) {
             building.take_accessor(accessors, number, &pointer);
         }
+
         // An accessor that no primitive names may be one that an unknown extension reads.
-        for (number, is_moved) in is_moved.into_iter().enumerate() {
-            if !is_moved && !primitives.order_free_accessors.contains(&number) {
+        let mut is_named = vec![false; accessors.len()];
+        let movable = primitives.movable.iter();
+        for &number in movable.flat_map(|primitive| &primitive.accessors) {
+            if let Some(is_named) = is_named.get_mut(number as usize) {
+                *is_named = true;
+            }
+        }
+        for (number, is_named) in is_named.into_iter().enumerate() {
+            if !is_named && !primitives.order_free_accessors.contains(&number) {
                 building.take_accessor(accessors, number, &format!("/accessors/{number}"));
             }
         }
         building.take_views(root, accessors);
-        let mut claims = Self {
-            streams: building.streams.into_values().collect(),
+
+        let mut byte_users = Self {
+            used: building.used.into_values().collect(),
         };
-        claims.mark_overlaps();
-        claims
+        byte_users.mark_overlaps();
+        byte_users
     }
 
-    /// The number of the stream with these records.
-    pub(super) fn position(&self, records: &Records) -> Option<usize> {
-        self.streams
-            .binary_search_by(|stream| stream.records.cmp(records))
+    /// The number of these records in `used`.
+    pub(super) fn find(&self, records: &StridedRecords) -> Option<usize> {
+        self.used
+            .binary_search_by(|used| used.records.cmp(records))
             .ok()
     }
 
     fn mark_overlaps(&mut self) {
         let mut pairs = 0;
-        for first in 0..self.streams.len() {
-            let records = self.streams[first].records;
-            for second in first + 1..self.streams.len() {
-                let other = self.streams[second].records;
+        for first in 0..self.used.len() {
+            let records = self.used[first].records;
+            for second in first + 1..self.used.len() {
+                let other = self.used[second].records;
                 if other.storage != records.storage || other.start >= records.end() {
                     break;
                 }
@@ -139,28 +150,29 @@ impl Claims {
         }
     }
 
-    fn mark(&mut self, stream: usize, other: usize) {
-        if self.streams[stream].taken_by.is_none() {
-            self.streams[stream].taken_by = Some(self.streams[other].pointer.clone());
+    fn mark(&mut self, used: usize, other: usize) {
+        if self.used[used].taken_by.is_none() {
+            self.used[used].taken_by = Some(self.used[other].pointer.clone());
         }
     }
 
     fn take_all(&mut self) {
-        for stream in &mut self.streams {
+        for used in &mut self.used {
             let too_many = || "too many accessors that overlap".to_owned();
-            stream.taken_by.get_or_insert_with(too_many);
+            used.taken_by.get_or_insert_with(too_many);
         }
     }
 }
 
+/// [`ByteUsers`] while they are collected.
 #[derive(Default)]
 struct Building {
-    streams: BTreeMap<Records, Stream>,
+    used: BTreeMap<StridedRecords, UsedRecords>,
 }
 
 impl Building {
-    fn stream(&mut self, records: Records, pointer: &str) -> &mut Stream {
-        self.streams.entry(records).or_insert_with(|| Stream {
+    fn used(&mut self, records: StridedRecords, pointer: &str) -> &mut UsedRecords {
+        self.used.entry(records).or_insert_with(|| UsedRecords {
             records,
             index_users: Vec::new(),
             vertex_users: Vec::new(),
@@ -173,35 +185,35 @@ impl Building {
         })
     }
 
-    fn add_draft(&mut self, user: usize, draft: &Draft) {
-        let pointer = &draft.position.pointer();
-        if let Some(list) = &draft.indices {
-            let stream = self.stream(list.records, pointer);
-            stream.index_users.push(user);
+    fn add_primitive(&mut self, user: usize, primitive: &Movable) {
+        let pointer = &primitive.number.pointer();
+        if let Some(list) = &primitive.indices {
+            let used = self.used(list.records, pointer);
+            used.index_users.push(user);
         }
-        if let Some(list) = draft.outline() {
-            let stream = self.stream(list.records, pointer);
-            stream.outline_users.push(user);
+        if let Some(list) = primitive.outline() {
+            let used = self.used(list.records, pointer);
+            used.outline_users.push(user);
         }
-        for &records in &draft.vertices {
-            let stream = self.stream(records, pointer);
-            stream.vertex_users.push(user);
+        for &records in &primitive.vertices {
+            let used = self.used(records, pointer);
+            used.vertex_users.push(user);
         }
-        for sparse in draft.sparse() {
-            let stream = self.stream(sparse.indices, pointer);
-            stream.sparse_index_users.push(user);
-            let stream = self.stream(sparse.values, pointer);
-            stream.sparse_value_users.push(user);
+        for sparse in primitive.sparse() {
+            let used = self.used(sparse.indices, pointer);
+            used.sparse_index_users.push(user);
+            let used = self.used(sparse.values, pointer);
+            used.sparse_value_users.push(user);
             // Values that go with two lists of numbers would have to move in two ways.
-            if *stream.value_indices.get_or_insert(sparse.indices) != sparse.indices {
-                stream.taken_by.get_or_insert_with(|| pointer.clone());
+            if *used.value_indices.get_or_insert(sparse.indices) != sparse.indices {
+                used.taken_by.get_or_insert_with(|| pointer.clone());
             }
         }
     }
 
-    fn take(&mut self, records: Records, by: &str) {
-        let stream = self.stream(records, by);
-        stream.taken_by.get_or_insert_with(|| by.to_owned());
+    fn take(&mut self, records: StridedRecords, by: &str) {
+        let used = self.used(records, by);
+        used.taken_by.get_or_insert_with(|| by.to_owned());
     }
 
     fn take_accessor(&mut self, accessors: &Accessors, number: usize, by: &str) {
@@ -220,7 +232,7 @@ impl Building {
 
     fn take_view(&mut self, accessors: &Accessors, number: Option<usize>, by: &str) {
         let view = number.and_then(|n| accessors.views().get(n));
-        if let Some(records) = view.and_then(|&view| accessors.claimed_bytes(view, 0, None)) {
+        if let Some(records) = view.and_then(|&view| accessors.bytes_of_view(view, 0, None)) {
             self.take(records, by);
         }
     }
@@ -241,16 +253,18 @@ impl Building {
                 }
             }
         }
+
         for (number, image) in values(root.value("images")) {
             let pointer = format!("/images/{number}");
             let view = image.get("bufferView").and_then(Value::whole);
             self.take_view(accessors, view, &pointer);
         }
+
         for (number, view) in accessors.views().iter().enumerate() {
             let pointer = format!("/bufferViews/{number}");
             for name in COMPRESSED_VIEW {
                 let source = view.get("extensions").and_then(|e| e.get(name));
-                let records = source.and_then(|view| accessors.claimed_bytes(view, 0, None));
+                let records = source.and_then(|view| accessors.bytes_of_view(view, 0, None));
                 if let Some(records) = records {
                     self.take(records, &pointer);
                 }
@@ -271,6 +285,7 @@ impl Building {
             .get("count")
             .and_then(Value::whole)
             .unwrap_or(usize::MAX);
+
         // No element is longer than a MAT4 of doubles; an index has at most four bytes.
         let resolved = accessors.resolve(number, "");
         let value_size = resolved.map_or(128, |accessor| accessor.size);
@@ -287,7 +302,7 @@ impl Building {
             };
             let length = count.saturating_mul(size);
             let records =
-                view.and_then(|&view| accessors.claimed_bytes(view, offset, Some(length)));
+                view.and_then(|&view| accessors.bytes_of_view(view, offset, Some(length)));
             if let Some(records) = records {
                 self.take(records, &format!("/accessors/{number}/sparse"));
             }
@@ -315,10 +330,12 @@ fn other_users(root: &Object) -> Vec<(usize, String)> {
             }
         }
     }
+
     for (number, skin) in values(root.value("skins")) {
         let accessor = skin.get("inverseBindMatrices").and_then(Value::whole);
         users.extend(accessor.map(|a| (a, format!("/skins/{number}"))));
     }
+
     for (number, node) in values(root.value("nodes")) {
         let instancing = node
             .get("extensions")

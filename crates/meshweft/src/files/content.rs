@@ -1,0 +1,37 @@
+//! What a format gives to a document: its meshes, the way to change them, the files to write.
+
+use std::path::{Path, PathBuf};
+use std::{fmt, io};
+
+use super::entry::MeshEntry;
+use super::error::Problem;
+use super::note::Note;
+use crate::permutation::{FaceOrder, VertexOrder};
+
+/// What a format's reader hands to [`Document`](super::Document).
+pub(super) type ReadResult = Result<(Box<dyn Content>, Vec<Note>), Problem>;
+
+/// What a format's reader offers to [`Document`](super::Document).
+///
+/// Its `Debug` output is short: bytes and faces are counted and not listed.
+pub(super) trait Content: Send + Sync + fmt::Debug {
+    /// The meshes, kept up to date by `apply`.
+    fn meshes(&self) -> &[MeshEntry];
+    /// Permutes records; the caller has checked the lengths.
+    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>);
+    /// Every file to write when the document goes to `path`, the main one last.
+    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem>;
+    /// The size on the disk of all files beside the main one that were read.
+    fn size_beside(&self) -> u64 {
+        0
+    }
+}
+
+/// A file to be written, its bytes made as they are written.
+pub(super) struct OutputFile<'a> {
+    pub(super) path: PathBuf,
+    pub(super) write: Box<WriteFile<'a>>,
+}
+
+/// Writes all bytes of a file, in large pieces.
+pub(super) type WriteFile<'a> = dyn Fn(&mut dyn io::Write) -> io::Result<()> + 'a;

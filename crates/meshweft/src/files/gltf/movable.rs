@@ -1,0 +1,109 @@
+//! Primitives that may move and primitives that stay, as they were read.
+
+use std::borrow::Cow;
+
+use super::obstacles::VertexObstacle;
+use super::sparse::Sparse;
+use super::strided_records::StridedRecords;
+
+/// Which primitive of a file: the numbers of its mesh and of itself. They come in the order of the
+/// file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct PrimitiveNumber {
+    pub(super) mesh: u32,
+    pub(super) primitive: u32,
+}
+
+impl PrimitiveNumber {
+    pub(super) fn pointer(self) -> String {
+        format!("/meshes/{}/primitives/{}", self.mesh, self.primitive)
+    }
+}
+
+/// A list of vertex indices in an accessor.
+#[derive(Debug, Clone)]
+pub(super) struct IndexList {
+    pub(super) pointer: String,
+    pub(super) records: StridedRecords,
+    /// The JSON states its smallest and largest values.
+    pub(super) is_bounded: bool,
+}
+
+/// A triangle-list primitive whose faces can be re-ordered as far as itself is concerned.
+///
+/// A file can have very many: what few of them have is apart.
+#[derive(Debug)]
+pub(super) struct Movable {
+    pub(super) number: PrimitiveNumber,
+    pub(super) vertex_count: usize,
+    /// Its corners; without them the vertices come three a face.
+    pub(super) indices: Option<Box<IndexList>>,
+    /// Every attribute and morph target that has bytes, rising, each once.
+    pub(super) vertices: Box<[StridedRecords]>,
+    /// Which of them is POSITION, if that is three floats.
+    pub(super) positions: Option<u32>,
+    pub(super) uncommon: Option<Box<Uncommon>>,
+    /// The numbers of all accessors it names.
+    pub(super) accessors: Box<[u32]>,
+}
+
+/// What few primitives have.
+#[derive(Debug, Default)]
+pub(super) struct Uncommon {
+    /// What is sparse of the positions.
+    pub(super) sparse_positions: Option<Sparse>,
+    pub(super) outline: Option<IndexList>,
+    /// The sparse elements of attributes and morph targets, rising, each once.
+    pub(super) sparse: Vec<Sparse>,
+    /// Accessors whose sparse elements cannot be moved.
+    pub(super) unmoved_sparse: Vec<usize>,
+    /// Why the vertices must stay.
+    pub(super) vertex_obstacle: Option<VertexObstacle>,
+}
+
+impl Uncommon {
+    /// Whether a primitive with only this has nothing uncommon.
+    pub(super) fn is_empty(&self) -> bool {
+        self.outline.is_none()
+            && self.vertex_obstacle.is_none()
+            && self.sparse.is_empty()
+            && self.unmoved_sparse.is_empty()
+    }
+}
+
+impl Movable {
+    pub(super) fn outline(&self) -> Option<&IndexList> {
+        self.uncommon.as_ref()?.outline.as_ref()
+    }
+
+    pub(super) fn sparse(&self) -> &[Sparse] {
+        self.uncommon
+            .as_ref()
+            .map_or(&[], |uncommon| &uncommon.sparse)
+    }
+
+    pub(super) fn vertex_obstacle(&self) -> Option<&VertexObstacle> {
+        self.uncommon.as_ref()?.vertex_obstacle.as_ref()
+    }
+
+    /// The lists of vertex numbers: corners and outline.
+    pub(super) fn lists(&self) -> impl Iterator<Item = &IndexList> {
+        self.indices.as_deref().into_iter().chain(self.outline())
+    }
+}
+
+/// A primitive that stays as it is.
+#[derive(Debug)]
+pub(super) struct Staying {
+    pub(super) number: PrimitiveNumber,
+    pub(super) why: Cow<'static, str>,
+    /// The numbers of all accessors it names.
+    pub(super) accessors: Box<[u32]>,
+}
+
+/// A primitive as it was read: may it move?
+#[derive(Debug)]
+pub(super) enum Primitive {
+    Movable(Movable),
+    Staying(Staying),
+}

@@ -1,0 +1,41 @@
+//! What keeps a primitive, or only its vertices, as it is.
+
+use std::borrow::Cow;
+
+/// Why vertices stay where they are.
+#[derive(Debug, Clone)]
+pub(super) struct VertexObstacle {
+    /// The pointer to what keeps them.
+    pub(super) pointer: String,
+    pub(super) why: String,
+}
+
+/// What keeps a primitive, or its vertices, where they are: the first reason of each counts.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Obstacles {
+    pub(super) of_primitive: Option<Cow<'static, str>>,
+    pub(super) of_vertices: Option<VertexObstacle>,
+    /// Extensions that are not known, and the pointers to what has them.
+    pub(super) unknown: Vec<(String, String)>,
+}
+
+impl Obstacles {
+    pub(super) fn keep_primitive(&mut self, why: impl Into<Cow<'static, str>>) {
+        self.of_primitive.get_or_insert_with(|| why.into());
+    }
+
+    pub(super) fn keep_vertices(&mut self, pointer: &str, why: impl Into<String>) {
+        self.of_vertices.get_or_insert_with(|| VertexObstacle {
+            pointer: pointer.to_owned(),
+            why: why.into(),
+        });
+    }
+
+    /// Keeps the vertices because of an extension that is not known.
+    pub(super) fn keep_vertices_for_unknown(&mut self, pointer: &str, extension: &str) {
+        let why = format!("the extension {extension} is not known and may depend on their order");
+        self.keep_vertices(pointer, why);
+        self.unknown
+            .push((pointer.to_owned(), extension.to_owned()));
+    }
+}

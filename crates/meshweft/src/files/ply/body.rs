@@ -1,0 +1,190 @@
+//! Reading the elements of a PLY file: vertices, faces, and where their rows stand.
+
+use std::ops::Range;
+
+use super::header::{Element, PlyHeader, PropertyKind};
+use super::plan::Plan;
+use super::rows::{Row, Rows, TriangleLayout};
+use crate::files::error::{Fault, FileErrorKind};
+use crate::files::face_records::{FaceRecords, corner_vertex, past_the_last_vertex};
+use crate::files::slots::Spans;
+use crate::limits::Limits;
+
+/// What was found after the header.
+pub(super) struct Body {
+    pub(super) vertices: Spans,
+    pub(super) positions: Vec<[f32; 3]>,
+    pub(super) faces: Spans,
+    pub(super) records: FaceRecords,
+    /// The rows of elements that go where the faces go.
+    pub(super) companions: Vec<Spans>,
+}
+
+/// Reads the rows of all elements.
+pub(super) fn read<R: Rows>(
+    mut rows: R,
+    header: &PlyHeader,
+    plan: &Plan,
+    limits: &Limits,
+) -> Result<Body, Fault> {
+    let mut body = Body {
+        vertices: Spans::new(),
+        positions: Vec::new(),
+        faces: Spans::new(),
+        records: FaceRecords::default(),
+        companions: Vec::new(),
+    };
+    let face_count = header.element("face").map_or(0, |face| face.count);
+    for element in &header.elements {
+        match element.name.as_str() {
+            "vertex" => read_vertices(&mut rows, element, &mut body)?,
+            "face" => read_faces(&mut rows, element, header, limits, &mut body)?,
+            "multi_texture_face" if element.count == face_count && plan.face_obstacle.is_none() => {
+                let mut spans = Spans::new();
+                pass_over(&mut rows, element, |_, span| spans.push(span))?;
+                body.companions.push(spans);
+            }
+            _ => pass_over(&mut rows, element, |_, _| Ok(()))?,
+        }
+    }
+    Ok(body)
+}
+
+/// Reads past the rows of an element, and hands over where each stands.
+fn pass_over<R: Rows>(
+    rows: &mut R,
+    element: &Element,
+    mut seen: impl FnMut(usize, Range<usize>) -> Result<(), FileErrorKind>,
+) -> Result<(), Fault> {
+    if element.properties.is_empty() {
+        return Ok(());
+    }
+    for number in 0..element.count {
+        let row = Row { element, number };
+        let start = rows.start_row();
+        for property in &element.properties {
+            match property.kind {
+                PropertyKind::Scalar(scalar) => rows.skip(1, scalar, &row)?,
+                PropertyKind::List { count, item } => {
+                    let count = rows.list_length(count, &row)?;
+                    rows.skip(count, item, &row)?;
+                }
+            }
+        }
+        let span = start..rows.end_row(&row)?;
+        let at = span.start;
+        seen(number, span).map_err(|kind| Fault { at, kind })?;
+    }
+    Ok(())
+}
+
+fn read_vertices<R: Rows>(rows: &mut R, element: &Element, body: &mut Body) -> Result<(), Fault> {
+    let [Some(x), Some(y), Some(z)] = ["x", "y", "z"].map(|name| element.scalar(name)) else {
+        // Positions are not needed for anything: the file may have its vertices in another form.
+        let spans = &mut body.vertices;
+        return pass_over(rows, element, |_, span| spans.push(span));
+    };
+    if let Some((start, positions)) = rows.positions(element, [x, y, z]) {
+        let length = (rows.at() - start) / element.count.max(1);
+        let pushed = body.vertices.push_even(start, length, element.count);
+        pushed.map_err(|kind| Fault { at: start, kind })?;
+        body.positions = positions;
+        return Ok(());
+    }
+    let axis_of = |number: usize| [x, y, z].iter().position(|&axis| axis == number);
+    let axes: Vec<Option<usize>> = (0..element.properties.len()).map(axis_of).collect();
+    body.positions.reserve(rows.at_most(element));
+    for number in 0..element.count {
+        let row = Row { element, number };
+        let mut position = [0.0; 3];
+        let start = rows.start_row();
+        for (property, axis) in element.properties.iter().zip(&axes) {
+            match (property.kind, axis) {
+                (PropertyKind::Scalar(scalar), &Some(axis)) => {
+                    position[axis] = rows.float(scalar, &row)?
+                }
+                (PropertyKind::Scalar(scalar), None) => rows.skip(1, scalar, &row)?,
+                (PropertyKind::List { count, item }, _) => {
+                    let count = rows.list_length(count, &row)?;
+                    rows.skip(count, item, &row)?;
+                }
+            }
+        }
+        let end = rows.end_row(&row)?;
+        body.positions.push(position);
+        let pushed = body.vertices.push(start..end);
+        pushed.map_err(|kind| Fault { at: start, kind })?;
+    }
+    Ok(())
+}
+
+fn read_faces<R: Rows>(
+    rows: &mut R,
+    element: &Element,
+    header: &PlyHeader,
+    limits: &Limits,
+    body: &mut Body,
+) -> Result<(), Fault> {
+    let Some(list) = element.corner_list() else {
+        // `header::read` has refused faces without corners, unless there are no faces.
+        return Ok(());
+    };
+    let vertex_count = header.vertex_count();
+    let layout = TriangleLayout::of(element, list);
+    let mut corners = Vec::new();
+    body.records.reserve(rows.at_most(element), rows.left());
+    let mut number = 0;
+    while number < element.count {
+        let start = rows.start_row();
+        if let Some(layout) = &layout {
+            let faces = &mut body.records.faces;
+            let first = faces.len();
+            let (read, length) = rows.triangles(layout, element.count - number, faces);
+            let bad = |face: &[u32; 3]| face.iter().position(|&v| v as usize >= vertex_count);
+            let bad = faces[first..]
+                .iter()
+                .enumerate()
+                .find_map(|(i, f)| Some((i, bad(f)?)));
+            if let Some((face, corner)) = bad {
+                let index = i64::from(faces[first + face][corner]);
+                let last = vertex_count.checked_sub(1);
+                let kind = past_the_last_vertex("face", number + face, corner, index, last);
+                let at = start + face * length;
+                return Err(Fault { at, kind });
+            }
+            let pushed = body.records.count_triangles(limits);
+            let pushed = pushed.and_then(|()| body.faces.push_even(start, length, read));
+            pushed.map_err(|kind| Fault { at: start, kind })?;
+            number += read;
+            if read > 0 {
+                continue;
+            }
+        }
+        let row = Row { element, number };
+        corners.clear();
+        for (property_number, property) in element.properties.iter().enumerate() {
+            match property.kind {
+                PropertyKind::Scalar(scalar) => rows.skip(1, scalar, &row)?,
+                PropertyKind::List { count, item } => {
+                    let count = rows.list_length(count, &row)?;
+                    if property_number != list {
+                        rows.skip(count, item, &row)?;
+                        continue;
+                    }
+                    for corner in 0..count {
+                        let at = rows.at();
+                        let index = rows.whole(item, &row)?;
+                        let vertex = corner_vertex(index, vertex_count, number, corner);
+                        corners.push(vertex.map_err(|kind| Fault { at, kind })?);
+                    }
+                }
+            }
+        }
+        let end = rows.end_row(&row)?;
+        let pushed = body.records.push(&corners, limits);
+        let pushed = pushed.and_then(|()| body.faces.push(start..end));
+        pushed.map_err(|kind| Fault { at: start, kind })?;
+        number += 1;
+    }
+    Ok(())
+}

@@ -1,0 +1,149 @@
+//! Where the records of a file stand.
+
+use std::ops::Range;
+
+use super::error::FileErrorKind;
+
+/// Where the records of one kind stand, in rising order.
+///
+/// Records that follow each other without a gap and have one length (the rows of most binary
+/// files) take no memory.
+#[derive(Debug, Clone)]
+pub(super) struct Spans {
+    first: usize,
+    stride: usize,
+    count: usize,
+    /// Once a record broke the rule: where each starts, and how long it is.
+    each: Option<(Vec<usize>, Vec<u32>)>,
+}
+
+impl Spans {
+    pub(super) fn new() -> Self {
+        Self {
+            first: 0,
+            stride: 0,
+            count: 0,
+            each: None,
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Adds the next record.
+    ///
+    /// # Errors
+    /// A record of 4 GiB or more.
+    #[inline]
+    pub(super) fn push(&mut self, span: Range<usize>) -> Result<(), FileErrorKind> {
+        let length = u32::try_from(span.len()).map_err(|_| FileErrorKind::OverLimit {
+            what: "bytes in one record",
+            found: span.len() as u64,
+            limit: u64::from(u32::MAX),
+        })?;
+        if let Some((starts, lengths)) = &mut self.each {
+            starts.push(span.start);
+            lengths.push(length);
+        } else if self.count == 0 {
+            (self.first, self.stride) = (span.start, span.len());
+        } else if span.len() != self.stride || span.start != self.first + self.count * self.stride {
+            let mut starts: Vec<usize> = (0..self.count)
+                .map(|i| self.first + i * self.stride)
+                .collect();
+            // The earlier records were as long as the first, whose length fitted.
+            let earlier = u32::try_from(self.stride).unwrap_or(u32::MAX);
+            let mut lengths = vec![earlier; self.count];
+            starts.push(span.start);
+            lengths.push(length);
+            self.each = Some((starts, lengths));
+        }
+        self.count += 1;
+        Ok(())
+    }
+
+    /// Adds `count` records of `length` bytes, side by side from `start` on.
+    ///
+    /// # Errors
+    /// A record of 4 GiB or more.
+    pub(super) fn push_even(
+        &mut self,
+        start: usize,
+        length: usize,
+        count: usize,
+    ) -> Result<(), FileErrorKind> {
+        let Some(more) = count.checked_sub(1) else {
+            return Ok(());
+        };
+        self.push(start..start + length)?;
+        if self.even_length() == Some(length) {
+            self.count += more;
+            return Ok(());
+        }
+        (1..count).try_for_each(|i| self.push(start + i * length..start + (i + 1) * length))
+    }
+
+    /// The length of every record, if all have one and stand side by side.
+    pub(super) fn even_length(&self) -> Option<usize> {
+        self.each.is_none().then_some(self.stride)
+    }
+
+    #[inline]
+    pub(super) fn span(&self, record: usize) -> Range<usize> {
+        let (start, length) = match &self.each {
+            Some((starts, lengths)) => (starts[record], lengths[record] as usize),
+            None => (self.first + record * self.stride, self.stride),
+        };
+        start..start + length
+    }
+
+    /// Where record `record` starts; past every byte if there is none.
+    #[inline]
+    pub(super) fn start(&self, record: usize) -> usize {
+        match record < self.count {
+            true => self.span(record).start,
+            false => usize::MAX,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn even_records_take_no_memory_until_one_differs() {
+        let mut spans = Spans::new();
+        for span in [10..13, 13..16, 16..19] {
+            spans.push(span).unwrap();
+        }
+        assert!(spans.each.is_none());
+        assert_eq!(spans.span(2), 16..19);
+        spans.push(20..23).unwrap();
+        assert!(spans.each.is_some());
+        let all: Vec<Range<usize>> = (0..spans.len()).map(|i| spans.span(i)).collect();
+        assert_eq!(all, [10..13, 13..16, 16..19, 20..23]);
+    }
+
+    #[test]
+    fn records_pushed_at_once_are_the_same() {
+        for (before, after) in [(None, None), (Some(3..7), None), (None, Some(31..40))] {
+            let (mut one, mut all) = (Spans::new(), Spans::new());
+            for spans in [&mut one, &mut all] {
+                before
+                    .iter()
+                    .for_each(|span| spans.push(span.clone()).unwrap());
+            }
+            (0..5).for_each(|i| one.push(10 + i * 4..14 + i * 4).unwrap());
+            all.push_even(10, 4, 5).unwrap();
+            all.push_even(10, 4, 0).unwrap();
+            for spans in [&mut one, &mut all] {
+                after
+                    .iter()
+                    .for_each(|span| spans.push(span.clone()).unwrap());
+            }
+            let spans = |spans: &Spans| (0..spans.len()).map(|i| spans.span(i)).collect::<Vec<_>>();
+            assert_eq!(spans(&one), spans(&all));
+        }
+    }
+}
