@@ -7,7 +7,7 @@
 //! | to learn | read |
 //! |---|---|
 //! | how a format plugs in | `content` |
-//! | how records change places in text and in binary files | `slots`, then `splice` |
+//! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `record_file` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
 //! | where bytes come from and go to | `disk` |
 
@@ -23,7 +23,10 @@ mod note;
 mod obj;
 mod off;
 mod options;
+mod orders;
 mod ply;
+mod record_file;
+mod rewrite;
 mod slots;
 mod splice;
 mod stl;

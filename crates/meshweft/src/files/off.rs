@@ -12,8 +12,10 @@ use super::error::{FileErrorKind, Place, Problem};
 use super::face_records::{FaceRecords, check_face_count, check_vertex_count, corner_vertex};
 use super::note::Note;
 use super::options::ReadOptions;
+use super::orders::Orders;
+use super::record_file::RecordFile;
+use super::rewrite::{Notation, Rewrite, vertex_from_zero};
 use super::slots::Spans;
-use super::splice::{Notation, Orders, RecordFile, Rewrite, vertex_from_zero};
 use super::text::{
     Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed, whole_number,
 };

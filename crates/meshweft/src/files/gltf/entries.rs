@@ -73,11 +73,14 @@ impl Entries {
         let mut spare_positions = buffers.byte_count() / size_of::<[f32; 3]>();
 
         for (primitive, &group) in movable.iter().zip(&group_of) {
+            // Why its vertices stay, as far as shared data tells.
             let count = *first_of_group[group].get_or_insert(primitive.vertex_count);
             if obstacles[group].is_none() && primitive.indices.is_some() {
                 obstacles[group] = vertex_obstacle(primitive, count, byte_users)
                     .map(|obstacle| (primitive.number, obstacle));
             }
+
+            // Its mesh, which others with the same faces may have made.
             let key = match &primitive.indices {
                 Some(list) => list.records,
                 // Every primitive has a POSITION with records, and those without indices that share
@@ -100,6 +103,8 @@ impl Entries {
             if entries.largest_index[entry] >= Some(index32(primitive.vertex_count)) {
                 check_range(entries.meshes[entry].mesh.faces().as_flattened(), primitive)?;
             }
+
+            // Why its vertices stay, as far as its lists tell.
             if obstacles[group].is_none() {
                 // A list is looked through once for its group, however many primitives share it.
                 obstacles[group] = primitive
@@ -108,20 +113,31 @@ impl Entries {
                     .find_map(|list| list_obstacle(list, primitive, buffers))
                     .map(|obstacle| (primitive.number, obstacle));
             }
+
             let target = &mut entries.groups[group];
             target.sparse.extend(primitive.sparse());
-            target
-                .outlines
-                .extend(primitive.outline().map(|list| list.records));
+            let outline = primitive.outline().map(|list| list.records);
+            target.outlines.extend(outline);
         }
-        // A used that movable read is read by movable of one group.
+
+        entries.add_vertices(byte_users, &group_of);
+        for entry in &mut entries.meshes {
+            entry.vertices_movable &= obstacles[entry.vertex_group].is_none();
+        }
+        entries.vertex_obstacles = obstacles.into_iter().flatten().collect();
+        Ok(entries)
+    }
+
+    /// Gives each group the records that go by vertex, and sorts what it has.
+    fn add_vertices(&mut self, byte_users: &ByteUsers, group_of: &[usize]) {
+        // All primitives that read some records are of one group.
         for used in &byte_users.used {
             if let Some(&user) = used.vertex_users.first() {
-                let group = &mut entries.groups[group_of[user]];
-                group.vertices.push(used.records);
+                self.groups[group_of[user]].vertices.push(used.records);
             }
         }
-        for group in &mut entries.groups {
+
+        for group in &mut self.groups {
             for records in [&mut group.vertices, &mut group.outlines] {
                 records.sort_unstable();
                 records.dedup();
@@ -130,13 +146,9 @@ impl Entries {
             group.sparse.sort_unstable();
             group.sparse.dedup();
         }
-        for entry in &mut entries.meshes {
-            entry.vertices_movable &= obstacles[entry.vertex_group].is_none();
-        }
-        entries.vertex_obstacles = obstacles.into_iter().flatten().collect();
-        Ok(entries)
     }
 
+    /// Adds the mesh of a primitive.
     fn add(
         &mut self,
         primitive: &Movable,
@@ -161,6 +173,7 @@ impl Entries {
                 (0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect()
             }
         };
+
         let positions = primitive
             .positions
             .map(|place| primitive.vertices[place as usize]);
@@ -183,6 +196,7 @@ impl Entries {
             }
             None => Mesh::connectivity_only(primitive.vertex_count, faces).map_err(at_primitive)?,
         };
+
         let largest = mesh.faces().as_flattened().iter().max();
         self.largest_index.push(largest.copied());
         self.groups[group].meshes.push(self.meshes.len());

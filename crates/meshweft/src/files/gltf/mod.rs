@@ -10,7 +10,8 @@
 //! What cannot be moved is left as it is, with a note that says why.
 //!
 //! Read [`container`] → [`buffers`] → [`accessors`] → [`obstacles`] → [`movable`] → [`extensions`] →
-//! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`].
+//! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`];
+//! [`notes`] says what is left.
 //!
 //! | word | what it is |
 //! |---|---|
@@ -36,6 +37,7 @@ mod extensions;
 mod groups;
 mod json;
 mod movable;
+mod notes;
 mod object;
 mod obstacles;
 mod output;
@@ -54,7 +56,6 @@ use super::disk::{read_limited, read_start};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
-use super::note::Note;
 use super::options::ReadOptions;
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -64,7 +65,6 @@ use byte_users::ByteUsers;
 use container::Container;
 use entries::{Corners, Entries};
 use json::{Json, JsonFault, Value};
-use movable::PrimitiveNumber;
 use object::Object;
 use output::Output;
 use primitives::Primitives;
@@ -98,24 +98,27 @@ pub(super) fn read(
     let json = read_json(&container, limits)?;
     let root = Object::new(json.root(), String::new())?;
     check_version(&root)?;
+
     let buffers = Buffers::load(&root, binary, path, is_glb, options)?;
     let uris = root.array("buffers")?.into_iter().enumerate();
     let span = |(number, buffer): (usize, Value<'_>)| Some((number, buffer.get("uri")?.span()));
     let uri_spans = uris.filter_map(span).collect();
+
     let accessors = Accessors::new(&root, &buffers, &options.assume_order_safe)?;
     let mut primitives = Primitives::read(&root, &accessors, options)?;
     let mut byte_users = ByteUsers::new(&root, &accessors, &primitives);
     groups::keep_entangled(&mut primitives, &mut byte_users);
     let entries = Entries::new(&primitives, &byte_users, &buffers)?;
-    let notes = notes(&root, &primitives, &entries, &buffers);
-    let scene = GltfFile {
+
+    let notes = notes::notes(&root, &primitives, &entries, &buffers);
+    let file = GltfFile {
         source: path.to_owned(),
         container,
         buffers,
         uri_spans,
         entries,
     };
-    Ok((Box::new(scene), notes))
+    Ok((Box::new(file), notes))
 }
 
 fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, Problem> {
@@ -176,87 +179,47 @@ fn check_version(root: &Object) -> Result<(), Problem> {
     }
 }
 
-/// Why something stays as it is.
-#[derive(PartialEq, Eq, PartialOrd, Ord)]
-enum Reason<'a> {
-    OfPrimitive(&'a str),
-    OfVertices(&'a str),
-}
-
-impl Reason<'_> {
-    fn note(self, place: Place) -> Note {
-        match self {
-            Self::OfPrimitive(why) => Note::new(place, format!("left as it is: {why}")),
-            Self::OfVertices(why) => Note::vertices_stay(place, why),
+impl GltfFile {
+    /// Moves the faces of a mesh; returns the mesh if its indices are then to be written.
+    fn move_faces(&mut self, mesh: usize, faces: &FaceOrder) -> Vec<usize> {
+        match &self.entries.corners[mesh] {
+            Corners::Indices(_) => {
+                self.entries.meshes[mesh].apply_faces(faces);
+                vec![mesh]
+            }
+            Corners::Triples(vertices) => {
+                let new_to_old = patch::triples(faces);
+                for records in vertices {
+                    let bytes = self.buffers.bytes_to_change(records.storage);
+                    patch::permute(bytes, records, &new_to_old);
+                }
+                self.entries.move_triples(mesh, new_to_old);
+                Vec::new()
+            }
         }
     }
-}
 
-/// The first primitive that a reason holds for, and how many there are.
-struct First<'a> {
-    number: PrimitiveNumber,
-    /// What in the primitive it is, if not all of it.
-    pointer: Option<&'a str>,
-    count: usize,
-}
-
-/// What is left as it is, in the order of the file.
-fn notes(
-    root: &Object,
-    primitives: &Primitives,
-    entries: &Entries,
-    buffers: &Buffers,
-) -> Vec<Note> {
-    // One note for each reason, at the first place: a reason may hold for very many.
-    let mut firsts: BTreeMap<Reason<'_>, First<'_>> = BTreeMap::new();
-    let staying = primitives.staying.iter();
-    let staying = staying.map(|staying| (Reason::OfPrimitive(&staying.why), staying.number, None));
-    let obstacles = entries.vertex_obstacles.iter();
-    let obstacles = obstacles.map(|(number, obstacle)| {
-        let reason = Reason::OfVertices(&obstacle.why);
-        (reason, *number, Some(obstacle.pointer.as_str()))
-    });
-    for (reason, number, pointer) in staying.chain(obstacles) {
-        let first = firsts.entry(reason).or_insert(First {
-            number,
-            pointer,
-            count: 0,
-        });
-        if number < first.number {
-            (first.number, first.pointer) = (number, pointer);
+    /// Moves the vertices of a group with all that numbers them, but for the indices of faces.
+    fn move_vertices(&mut self, group: usize, order: &VertexOrder) {
+        let group = &self.entries.groups[group];
+        for records in &group.vertices {
+            let bytes = self.buffers.bytes_to_change(records.storage);
+            patch::permute(bytes, records, order.new_to_old());
         }
-        first.count += 1;
-    }
 
-    let mut firsts: Vec<_> = firsts.into_iter().collect();
-    firsts.sort_by_key(|(_, first)| first.number);
-    let notes = firsts.into_iter().map(|(reason, first)| {
-        let pointer = first.pointer.map(str::to_owned);
-        let pointer = pointer.unwrap_or_else(|| first.number.pointer());
-        Note {
-            more: first.count - 1,
-            ..reason.note(Place::Json(pointer))
+        let old_to_new = order.permutation().old_to_new();
+        for records in &group.outlines {
+            let bytes = self.buffers.bytes_to_change(records.storage);
+            let numbers = patch::numbers(bytes, records);
+            let renumbered = numbers.iter().map(|&old| old_to_new[old as usize]);
+            patch::write_numbers(bytes, records, renumbered);
         }
-    });
-    let mut notes: Vec<Note> = notes.collect();
+        sparse::renumber(&mut self.buffers, &group.sparse, &old_to_new);
 
-    let note = |pointer: &str, text: String| Note::new(Place::Json(pointer.to_owned()), text);
-    for (buffer, why) in buffers.unreadable() {
-        notes.push(note(
-            &format!("/buffers/{buffer}/uri"),
-            format!("not read: {why}"),
-        ));
+        for &member in &group.meshes {
+            self.entries.meshes[member].apply_vertices(order);
+        }
     }
-    let is_external = |image: Value<'_>| {
-        let uri = image.get("uri").and_then(Value::text);
-        uri.is_some_and(|uri| !uri.starts_with("data:"))
-    };
-    let images = root.value("images").map(Value::elements);
-    if images.is_some_and(|mut images| images.any(is_external)) {
-        let text = "images are files of their own: copy them to the folder of the output";
-        notes.push(note("/images", text.to_owned()));
-    }
-    notes
 }
 
 impl fmt::Debug for GltfFile {
@@ -275,43 +238,17 @@ impl Content for GltfFile {
     }
 
     fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {
-        let group = self.entries.meshes[mesh].vertex_group;
         let mut rewritten = Vec::new();
         if !faces.is_identity() {
-            match &self.entries.corners[mesh] {
-                Corners::Indices(_) => {
-                    self.entries.meshes[mesh].apply_faces(faces);
-                    rewritten.push(mesh);
-                }
-                Corners::Triples(vertices) => {
-                    let new_to_old = patch::triples(faces);
-                    for records in vertices {
-                        let bytes = self.buffers.bytes_to_change(records.storage);
-                        patch::permute(bytes, records, &new_to_old);
-                    }
-                    self.entries.move_triples(mesh, new_to_old);
-                }
-            }
+            rewritten = self.move_faces(mesh, faces);
         }
         if let Some(order) = vertices.filter(|order| !order.is_identity()) {
-            let group = &self.entries.groups[group];
-            for records in &group.vertices {
-                let bytes = self.buffers.bytes_to_change(records.storage);
-                patch::permute(bytes, records, order.new_to_old());
-            }
-            let old_to_new = order.permutation().old_to_new();
-            for records in &group.outlines {
-                let bytes = self.buffers.bytes_to_change(records.storage);
-                let numbers = patch::numbers(bytes, records);
-                let renumbered = numbers.iter().map(|&old| old_to_new[old as usize]);
-                patch::write_numbers(bytes, records, renumbered);
-            }
-            sparse::renumber(&mut self.buffers, &group.sparse, &old_to_new);
-            for &member in &group.meshes {
-                self.entries.meshes[member].apply_vertices(order);
-            }
-            rewritten.clone_from(&group.meshes);
+            let group = self.entries.meshes[mesh].vertex_group;
+            self.move_vertices(group, order);
+            rewritten.clone_from(&self.entries.groups[group].meshes);
         }
+
+        // Indices are written once for both orders.
         for mesh in rewritten {
             if let Corners::Indices(records) = &self.entries.corners[mesh] {
                 let bytes = self.buffers.bytes_to_change(records.storage);

@@ -26,8 +26,9 @@ use crate::files::error::{Fault, FileErrorKind, Place};
 use crate::files::face_records::{FaceRecords, check_vertex_count, past_the_last_vertex};
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
+use crate::files::orders::Orders;
+use crate::files::record_file::RecordFile;
 use crate::files::slots::Spans;
-use crate::files::splice::{Orders, RecordFile};
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, leading_number, line_end, line_of, shown, trimmed,
 };

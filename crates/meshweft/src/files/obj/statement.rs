@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::files::splice::{Notation, Rewrite};
+use crate::files::rewrite::{Notation, Rewrite};
 use crate::files::text::{Tokens, is_line_end, leading_number, line_end, trimmed};
 
 /// The statement that starts at `start`, and where its last line ends: at a line end that no `\`

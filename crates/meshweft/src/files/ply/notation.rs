@@ -2,7 +2,7 @@
 
 use super::header::{Element, Encoding, PlyHeader, PropertyKind, Scalar};
 use super::rows::{Ascii, Binary, Row, Rows};
-use crate::files::splice::{Change, Notation, Rewrite, vertex_from_zero};
+use crate::files::rewrite::{Change, Notation, Rewrite, vertex_from_zero};
 use crate::files::text::Tokens;
 
 /// How corners stand in face rows.

@@ -7,8 +7,8 @@ use std::ops::Range;
 use super::facets::Facets;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
+use crate::files::rewrite::{Notation, Rewrite};
 use crate::files::slots::Spans;
-use crate::files::splice::{Notation, Rewrite};
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
 };

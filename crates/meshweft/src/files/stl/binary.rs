@@ -3,8 +3,8 @@
 use super::facets::Facets;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
+use crate::files::rewrite::{Notation, Rewrite};
 use crate::files::slots::Spans;
-use crate::files::splice::{Notation, Rewrite};
 use crate::limits::Limits;
 
 /// Where the first facet starts: after the header and the count.

@@ -1,0 +1,101 @@
+//! What is left as it is, said once for each reason.
+
+use std::collections::BTreeMap;
+
+use super::buffers::Buffers;
+use super::entries::Entries;
+use super::json::Value;
+use super::movable::PrimitiveNumber;
+use super::object::Object;
+use super::primitives::Primitives;
+use crate::files::error::Place;
+use crate::files::note::Note;
+
+/// Why something stays as it is.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+enum Reason<'a> {
+    OfPrimitive(&'a str),
+    OfVertices(&'a str),
+}
+
+impl Reason<'_> {
+    fn note(self, place: Place) -> Note {
+        match self {
+            Self::OfPrimitive(why) => Note::new(place, format!("left as it is: {why}")),
+            Self::OfVertices(why) => Note::vertices_stay(place, why),
+        }
+    }
+}
+
+/// The first primitive that a reason holds for, and how many there are.
+struct First<'a> {
+    number: PrimitiveNumber,
+    /// What in the primitive it is, if not all of it.
+    pointer: Option<&'a str>,
+    count: usize,
+}
+
+/// All notes: primitives and vertices in the order of the file, then buffers, then images.
+pub(super) fn notes(
+    root: &Object,
+    primitives: &Primitives,
+    entries: &Entries,
+    buffers: &Buffers,
+) -> Vec<Note> {
+    let mut notes = of_primitives(primitives, entries);
+    let note = |pointer: &str, text: String| Note::new(Place::Json(pointer.to_owned()), text);
+
+    for (buffer, why) in buffers.unreadable() {
+        notes.push(note(
+            &format!("/buffers/{buffer}/uri"),
+            format!("not read: {why}"),
+        ));
+    }
+
+    let is_external = |image: Value<'_>| {
+        let uri = image.get("uri").and_then(Value::text);
+        uri.is_some_and(|uri| !uri.starts_with("data:"))
+    };
+    let images = root.value("images").map(Value::elements);
+    if images.is_some_and(|mut images| images.any(is_external)) {
+        let text = "images are files of their own: copy them to the folder of the output";
+        notes.push(note("/images", text.to_owned()));
+    }
+    notes
+}
+
+/// One note for each reason, at the first place: a reason may hold for very many.
+fn of_primitives(primitives: &Primitives, entries: &Entries) -> Vec<Note> {
+    let staying = primitives.staying.iter();
+    let staying = staying.map(|staying| (Reason::OfPrimitive(&staying.why), staying.number, None));
+    let obstacles = entries.vertex_obstacles.iter();
+    let obstacles = obstacles.map(|(number, obstacle)| {
+        let reason = Reason::OfVertices(&obstacle.why);
+        (reason, *number, Some(obstacle.pointer.as_str()))
+    });
+
+    let mut firsts: BTreeMap<Reason<'_>, First<'_>> = BTreeMap::new();
+    for (reason, number, pointer) in staying.chain(obstacles) {
+        let first = firsts.entry(reason).or_insert(First {
+            number,
+            pointer,
+            count: 0,
+        });
+        if number < first.number {
+            (first.number, first.pointer) = (number, pointer);
+        }
+        first.count += 1;
+    }
+
+    let mut firsts: Vec<_> = firsts.into_iter().collect();
+    firsts.sort_by_key(|(_, first)| first.number);
+    let notes = firsts.into_iter().map(|(reason, first)| {
+        let pointer = first.pointer.map(str::to_owned);
+        let pointer = pointer.unwrap_or_else(|| first.number.pointer());
+        Note {
+            more: first.count - 1,
+            ..reason.note(Place::Json(pointer))
+        }
+    });
+    notes.collect()
+}

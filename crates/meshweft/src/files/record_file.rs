@@ -1,0 +1,121 @@
+//! Files that are a sequence of records, in text or in bytes: OBJ, OFF, PLY, STL.
+//!
+//! The source is never changed: orders add up, and the output is spliced when it is asked for.
+
+use std::path::Path;
+use std::{fmt, io};
+
+use super::content::{Content, OutputFile};
+use super::entry::MeshEntry;
+use super::error::Problem;
+use super::orders::{Orders, record_in};
+use super::rewrite::{Change, Notation, Rewrite};
+use super::slots::Spans;
+use super::splice::{Layer, splice};
+use crate::permutation::{FaceOrder, VertexOrder};
+
+/// A file of records, and the orders its records were put in.
+pub(super) struct RecordFile<N> {
+    pub(super) source: Vec<u8>,
+    pub(super) vertices: Spans,
+    pub(super) faces: Spans,
+    /// Rows that hang on the faces one by one and go where they go.
+    pub(super) companions: Vec<Spans>,
+    /// Lines that name vertices and stay where they are.
+    pub(super) lines: Spans,
+    pub(super) notation: N,
+    /// One mesh, or none if the file has no faces.
+    pub(super) entries: Vec<MeshEntry>,
+    pub(super) orders: Orders,
+}
+
+impl<N: Notation> RecordFile<N> {
+    fn write(&self, sink: &mut dyn io::Write) -> io::Result<()> {
+        let Orders {
+            records, vertices, ..
+        } = &self.orders;
+        let source = self.source.as_slice();
+        let old_to_new = self.orders.old_to_new();
+        let old_to_new = old_to_new.as_slice();
+        let mut layers = Vec::new();
+
+        if !records.is_empty() || !vertices.is_empty() {
+            let mut corners = Vec::new();
+            layers.push(Layer::new(&self.faces, move |slots, out| {
+                for slot in slots {
+                    let change = Change {
+                        rotation: self.orders.rotation(slot),
+                        old_to_new,
+                    };
+                    let record = &source[self.faces.span(record_in(records, slot))];
+                    if change.is_nothing() {
+                        out.extend_from_slice(record);
+                        continue;
+                    }
+                    let rewrite = Rewrite {
+                        change,
+                        corners: &mut corners,
+                        out,
+                    };
+                    self.notation.write_face(record, rewrite);
+                }
+            }));
+            let companions = self.companions.iter();
+            layers.extend(companions.map(|spans| Layer::moved(spans, source, records)));
+        }
+
+        if !vertices.is_empty() {
+            layers.push(Layer::moved(&self.vertices, source, vertices));
+            let mut corners = Vec::new();
+            layers.push(Layer::new(&self.lines, move |slots, out| {
+                for slot in slots {
+                    let change = Change {
+                        rotation: 0,
+                        old_to_new,
+                    };
+                    let rewrite = Rewrite {
+                        change,
+                        corners: &mut corners,
+                        out,
+                    };
+                    self.notation
+                        .write_line(&source[self.lines.span(slot)], rewrite);
+                }
+            }));
+        }
+        splice(source, 0..source.len(), layers, sink)
+    }
+}
+
+impl<N> fmt::Debug for RecordFile<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RecordFile")
+            .field("bytes", &self.source.len())
+            .field("vertices", &self.vertices.len())
+            .field("faces", &self.faces.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<N: Notation> Content for RecordFile<N> {
+    fn meshes(&self) -> &[MeshEntry] {
+        &self.entries
+    }
+
+    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {
+        let entry = &mut self.entries[mesh];
+        self.orders.add_faces(faces);
+        entry.apply_faces(faces);
+        if let Some(vertices) = vertices {
+            self.orders.add_vertices(vertices);
+            entry.apply_vertices(vertices);
+        }
+    }
+
+    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem> {
+        Ok(vec![OutputFile {
+            path: path.to_owned(),
+            write: Box::new(|sink| self.write(sink)),
+        }])
+    }
+}
