@@ -218,12 +218,14 @@ fn check_order(
         })),
     };
     length("face order", entry.record_count(), faces.len())?;
+
     let unsupported = |text: &str| {
         Err(FileErrorKind::unsupported(format!(
             "mesh {:?}: {text}",
             entry.name
         )))
     };
+
     if !entry.keeps_runs(faces) {
         return unsupported("the order moves a face out of its run (group, material, …)");
     }
@@ -231,6 +233,7 @@ fn check_order(
     if turns && (!entry.corners_turnable || entry.polygons.is_some()) {
         return unsupported("the order turns corners that must stay");
     }
+
     let Some(vertices) = vertices else {
         return Ok(());
     };

@@ -83,6 +83,8 @@ impl MeshEntry {
     ) -> FaceOrder {
         let record_count = self.record_count();
         let turn = self.corners_turnable && self.polygons.is_none();
+
+        // One run of triangles is the mesh itself.
         if self.runs.len() <= 1 && self.polygons.is_none() {
             let order = face_order(&self.mesh, None);
             return match turn {
@@ -90,6 +92,7 @@ impl MeshEntry {
                 false => order.permutation().clone().into(),
             };
         }
+
         let mut new_to_old = Vec::with_capacity(record_count);
         let mut rotations = Vec::new();
         let mut local_of = vec![u32::MAX; self.mesh.vertex_count()];
@@ -107,6 +110,7 @@ impl MeshEntry {
                 },
             );
         }
+
         if !turn || rotations.iter().all(|&r| r == 0) {
             rotations.clear();
         }
@@ -124,6 +128,8 @@ impl MeshEntry {
         if run.len() == 1 {
             return emit(index32(run.start), 0);
         }
+
+        // The run as a mesh of its own, its vertices numbered by first use.
         let mut global_of = Vec::new();
         let mut faces = Vec::new();
         let mut record_of = Vec::new();
@@ -144,9 +150,11 @@ impl MeshEntry {
                 }));
             }
         }
+
         let mesh = Mesh::connectivity_only(global_of.len(), faces).expect("indices are local");
         starts.push(index32(mesh.face_count()));
         let order = face_order(&mesh, self.polygons.is_some().then_some(&starts[..]));
+
         // A polygon goes where the first of its triangles went; one with no triangle (a point, a
         // line) stays after the others.
         let mut placed = vec![false; run.len()];
@@ -162,6 +170,7 @@ impl MeshEntry {
                 emit(index32(record), 0);
             }
         }
+
         for vertex in global_of {
             local_of[vertex as usize] = u32::MAX;
         }

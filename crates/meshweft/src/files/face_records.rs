@@ -57,11 +57,14 @@ impl FaceRecords {
         if self.count >= limit || self.faces.len() + added > limit {
             return Err(over_limit("faces", self.faces.len() + added.max(1), limit));
         }
+
+        // The usual record is a triangle.
         if let (&[a, b, c], None) = (corners, &self.polygons) {
             self.faces.push([a, b, c]);
             self.count += 1;
             return Ok(());
         }
+
         if added != 1 && self.polygons.is_none() {
             let mut starts = Vec::with_capacity(self.expected + 1);
             starts.extend(0..=index32(self.count));

@@ -36,6 +36,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     let header = header(&mut lines, limits)?;
     let (vertices, positions) = vertices(&mut lines, &header)?;
     let (faces, records) = faces(&mut lines, &header, limits)?;
+
     let (mut entries, mut notes) = (Vec::new(), Vec::new());
     if records.len() == 0 {
         notes.push(Note::nothing_to_order());
@@ -52,6 +53,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
             polygons: records.polygons,
         });
     }
+
     let file = RecordFile {
         source: bytes,
         vertices,
@@ -137,6 +139,7 @@ fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader, Problem> 
         used += 1;
         Ok(tokens[used - 1].clone())
     };
+
     let mut token = next(lines, "the header: an OFF file starts with the word OFF")?;
     let (mut dimension, mut vertex_numbers) = (3, 3);
     if whole_number(&text[token.clone()]).is_none() {
@@ -163,10 +166,12 @@ fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader, Problem> 
             .saturating_add(normal)
             .saturating_add(colour + texture);
     }
+
     let place = token.start;
     let vertex_count = count(lines, token, "number of vertices")?;
     let token = next(lines, "the header")?;
     let face_count = count(lines, token, "number of faces")?;
+
     // The number of edges is of no use here, and often wrong; but vertices cannot stand there.
     if let Some(third) = tokens.get(used) {
         let edges = whole_number(&text[third.clone()]);
@@ -175,6 +180,7 @@ fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader, Problem> 
             return Err(lines.malformed(third.start, text));
         }
     }
+
     let checked = check_vertex_count(vertex_count, limits);
     let checked = checked.and_then(|()| check_face_count(face_count, limits));
     checked.map_err(|kind| lines.problem(place, kind))?;
@@ -241,6 +247,7 @@ fn vertices(lines: &mut Lines<'_>, header: &OffHeader) -> Result<VertexLines, Pr
         let line = lines.next().ok_or_else(|| {
             lines.truncated(format!("vertex {vertex} of {}", header.vertex_count))
         })?;
+
         let mut tokens = lines.tokens(&line);
         let mut position = [0.0; 3];
         let mut found = 0;
@@ -252,6 +259,7 @@ fn vertices(lines: &mut Lines<'_>, header: &OffHeader) -> Result<VertexLines, Pr
             })?;
             found += 1;
         }
+
         if found < header.vertex_numbers {
             found += tokens.take(header.vertex_numbers - found).count();
         }
@@ -261,6 +269,7 @@ fn vertices(lines: &mut Lines<'_>, header: &OffHeader) -> Result<VertexLines, Pr
                 format!("vertex {vertex} has {found} numbers on its line and needs {needed}");
             return Err(lines.malformed(line.start, text));
         }
+
         positions.push(position);
         let at = line.start;
         spans.push(line).map_err(|kind| lines.problem(at, kind))?;
@@ -303,11 +312,13 @@ fn face_corners(
     let malformed = |text: String| lines.malformed(line.start, format!("face {face}{text}"));
     corners.clear();
     let mut tokens = lines.tokens(line);
+
     let promised = tokens.next().unwrap_or(line.start..line.start);
     let promised = &lines.text[promised];
     let corner_count = whole_number(promised).and_then(|n| usize::try_from(n).ok());
     let corner_count = corner_count
         .ok_or_else(|| malformed(format!(": {} is not a number of corners", shown(promised))))?;
+
     for corner in 0..corner_count {
         let token = tokens.next().ok_or_else(|| {
             malformed(format!(

@@ -84,6 +84,7 @@ pub(super) fn splice(
             .filter(|&(other, _)| other != turn);
         let until = others.map(|(_, layer)| layer.next_start()).min();
         let until = until.unwrap_or(usize::MAX);
+
         let layer = &mut layers[turn];
         while layer.next < layer.slots.len() {
             let slot = layer.slots.span(layer.next);
@@ -97,6 +98,8 @@ pub(super) fn splice(
             } else {
                 out.extend_from_slice(&source[copied..slot.start]);
             }
+
+            // As many slots as can be filled at once: they touch, so nothing else stands between.
             let batch = layer.next..layer.next + layer.batch();
             layer.next = batch.end;
             copied = layer.slots.span(batch.end - 1).end;
@@ -107,6 +110,7 @@ pub(super) fn splice(
             }
         }
     }
+
     sink.write_all(&out)?;
     sink.write_all(&source[copied..range.end])
 }

@@ -178,11 +178,13 @@ impl<'a> Accessors<'a> {
                 return Err(object.problem(format!("there is no component type {other}")));
             }
         };
+
         let name = object.text("type")?;
         let name = name.ok_or_else(|| object.problem("type is missing"))?;
         let shape = Shape::of_name(&name)
             .ok_or_else(|| object.problem(format!("there is no type {name:?}")))?;
         let (column, size) = shape.sizes(width);
+
         let mut accessor = Accessor {
             size,
             records: None,
@@ -215,6 +217,7 @@ impl<'a> Accessors<'a> {
         let offset = object.number("byteOffset")?.unwrap_or(0);
         let value = element(&self.views, "buffer view", number, object.pointer())?;
         let view = Object::new(value, format!("/bufferViews/{number}"))?;
+
         for name in view.extensions()? {
             match COMPRESSED_VIEW.contains(&name.as_ref()) {
                 true => accessor.is_compressed = true,
@@ -224,6 +227,7 @@ impl<'a> Accessors<'a> {
         if accessor.is_compressed {
             return Ok(());
         }
+
         let (storage, view_start, view_length) = self.view_bytes(&view)?;
         let buffer = view.required_number("buffer")?;
         let buffer = Object::new(self.buffer_values[buffer], format!("/buffers/{buffer}"))?;
@@ -241,6 +245,7 @@ impl<'a> Accessors<'a> {
                 accessor.pointer
             )));
         }
+
         let length = match accessor.count.checked_sub(1) {
             Some(last) => last.checked_mul(stride).and_then(|n| n.checked_add(size)),
             None => Some(0),
@@ -253,6 +258,7 @@ impl<'a> Accessors<'a> {
                 accessor.count
             )));
         }
+
         accessor.records = Some(StridedRecords {
             storage,
             start: view_start + offset,

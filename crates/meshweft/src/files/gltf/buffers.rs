@@ -107,6 +107,7 @@ impl Buffers {
                         .clone()
                 }),
             };
+
             buffers.count += 1;
             match storage {
                 Ok(storage) => drop(buffers.of_buffer.insert(number, storage)),
@@ -115,6 +116,7 @@ impl Buffers {
                 Err(missing) => drop(buffers.missing.insert(number, missing)),
             }
         }
+
         for storage in &mut buffers.storages {
             if is_glb && storage.source != Source::Binary {
                 storage.fixed = Some("its data is not in the binary chunk of the GLB");
@@ -129,6 +131,7 @@ impl Buffers {
                 storage.fixed = Some("other files read its buffer too: give this one its own");
             }
         }
+
         // A binary chunk that no buffer names is kept as it is.
         if let Some(bytes) = binary {
             buffers.store(Source::Binary, bytes);
@@ -275,6 +278,7 @@ fn relative_path(uri: &str) -> Result<PathBuf, Missing> {
     let Some(decoded) = percent_decoded(uri) else {
         return bad("is not UTF-8 text when decoded");
     };
+
     if decoded.starts_with('/') {
         return bad("is an absolute path");
     }
@@ -284,6 +288,7 @@ fn relative_path(uri: &str) -> Result<PathBuf, Missing> {
     if decoded.contains(['\\', '\0']) {
         return bad("has a character that file names cannot share between systems");
     }
+
     let segments = decoded.split('/').filter(|s| !matches!(*s, "" | "."));
     let mut path = PathBuf::new();
     for segment in segments {

@@ -55,6 +55,8 @@ impl Container {
     /// A `.glb`: a header of 12 bytes and chunks.
     pub(super) fn of_chunks(mut bytes: Vec<u8>) -> Result<Self, Problem> {
         let at = |kind: FileErrorKind, byte| Err(kind.at(Place::Byte(byte)));
+
+        // The header.
         let header = bytes.get(..12);
         if bytes.get(..4).is_some_and(|magic| magic != b"glTF") {
             let problem = "a GLB starts with the letters glTF: this is another kind of file";
@@ -79,6 +81,8 @@ impl Container {
             );
             return at(FileErrorKind::truncated(what), bytes.len());
         }
+
+        // The chunks.
         let (json, mut next) = match chunk(&bytes, 12, length)? {
             Some((JSON, data)) => (data.clone(), data.end),
             Some(_) => {
@@ -96,6 +100,7 @@ impl Container {
             next = data.end;
             binary = (kind == BINARY).then_some(data);
         }
+
         let json = without_mark(&bytes, json);
         let (mut data, mut tail) = (None, Vec::new());
         if let Some(binary) = binary {

@@ -280,6 +280,7 @@ fn list_obstacle(
             why: why.to_owned(),
         })
     };
+
     let is_outline = primitive
         .outline()
         .is_some_and(|outline| outline.records == list.records);
@@ -296,6 +297,7 @@ fn list_obstacle(
             return obstacle("the outline names vertices that are not there");
         }
     }
+
     // If every vertex is named, the smallest and the largest number stay what they are.
     if list.is_bounded && !names_all(bytes, &list.records, primitive.vertex_count) {
         return obstacle("the JSON states the smallest and largest index, and they would change");

@@ -22,6 +22,7 @@ pub(super) fn of_mesh(
     let Some(extensions) = mesh.object("extensions")? else {
         return Ok(obstacles);
     };
+
     for name in extensions.names() {
         if name == "EXT_mesh_manifold" {
             obstacles.keep_vertices(mesh.pointer(), "EXT_mesh_manifold names vertices again");
@@ -58,6 +59,7 @@ pub(super) fn of_primitive(
         return Ok(None);
     };
     let pointer = primitive.pointer();
+
     for name in extensions.names() {
         match name.as_ref() {
             "KHR_draco_mesh_compression" => obstacles.keep_primitive(

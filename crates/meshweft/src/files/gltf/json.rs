@@ -64,6 +64,7 @@ fn nodes(text: &[u8], nesting: usize) -> Result<Vec<Node>, FileErrorKind> {
     let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     let mut nodes: Vec<Node> = Vec::new();
     let mut open = Vec::new();
+
     let mut at = 0;
     while let Some(&byte) = text.get(at) {
         let start = at;

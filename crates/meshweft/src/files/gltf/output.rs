@@ -28,6 +28,7 @@ impl<'a> Output<'a> {
         let is_in_place = is_same_folder && self.source.file_name() == path.file_name();
         let mut files = Vec::new();
         let mut new_uris: Vec<(usize, String)> = Vec::new();
+
         for (number, storage) in self.buffers.storages.iter().enumerate() {
             match &storage.source {
                 Source::Binary => {}
@@ -64,6 +65,7 @@ impl<'a> Output<'a> {
                 }
             }
         }
+
         let parts = self.main_file(new_uris);
         files.push(OutputFile {
             path: path.to_owned(),
@@ -87,6 +89,7 @@ impl<'a> Output<'a> {
             .into_iter()
             .find(|ending| lower.ends_with(ending));
         let stem = ending.map_or(stem, |ending| &name[..name.len() - ending.len()]);
+
         let is_used = |candidate: &str| {
             let source = Source::External(PathBuf::from(candidate));
             self.buffers.storages.iter().any(|s| s.source == source)
@@ -97,6 +100,7 @@ impl<'a> Output<'a> {
         if moved == 1 && !is_used(&plain) {
             return Ok(plain);
         }
+
         // Steps of the number of storages keep the names of two of them apart.
         let step = self.buffers.storages.len();
         let names = (storage..).step_by(step).map(|n| format!("{stem}.{n}.bin"));
@@ -113,6 +117,7 @@ impl<'a> Output<'a> {
         } = self.container;
         let mut parts: Vec<Cow<'a, [u8]>> = Vec::new();
         let mut copied = 0;
+
         new_uris.sort_unstable_by_key(|(buffer, _)| *buffer);
         for (buffer, uri) in new_uris {
             let Some(span) = self.uri_spans.get(&buffer) else {
@@ -123,6 +128,7 @@ impl<'a> Output<'a> {
             parts.push(quoted.into_bytes().into());
             copied = json.start + span.end;
         }
+
         parts.push(head[copied..].into());
         let binary = self
             .buffers

@@ -11,6 +11,7 @@ pub(super) fn permute(bytes: &mut [u8], records: &StridedRecords, new_to_old: &[
         size,
         ..
     } = *records;
+
     // The usual sizes: a copy of a length that the compiler knows is a few instructions.
     match size {
         4 => permute_sized::<4>(bytes, records, new_to_old),

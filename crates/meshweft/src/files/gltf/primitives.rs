@@ -11,9 +11,10 @@ use super::object::{Object, malformed};
 use super::obstacles::Obstacles;
 use super::sparse::Sparse;
 use super::strided_records::StridedRecords;
-use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::error::{Place, Problem};
+use crate::files::face_records::{check_face_count, check_vertex_count};
 use crate::files::options::ReadOptions;
-use crate::limits::{MAX_FACES, MAX_VERTICES, index32};
+use crate::limits::index32;
 
 /// All primitives of a file.
 #[derive(Debug, Default)]
@@ -192,11 +193,13 @@ impl PrimitiveReader<'_> {
         if position.records.is_none() && !position.is_compressed {
             obstacles.keep_primitive("its POSITION has no buffer view");
         }
+
         let mut data = VertexData::default();
         self.read_set(&attributes, &position, obstacles, &mut data)?;
         for target in self.primitive.objects("targets")? {
             self.read_set(&target?, &position, obstacles, &mut data)?;
         }
+
         data.records.sort_unstable();
         data.records.dedup();
         data.sparse.sort_unstable();
@@ -225,6 +228,7 @@ impl PrimitiveReader<'_> {
                     ),
                 ));
             }
+
             note_obstacles(&accessor, obstacles);
             if accessor.is_sparse {
                 let moved = match self.primitive.has("indices") {
@@ -244,6 +248,7 @@ impl PrimitiveReader<'_> {
                     }
                 }
             }
+
             data.records.extend(accessor.records);
         }
         Ok(())
@@ -262,6 +267,7 @@ impl PrimitiveReader<'_> {
             );
             return Err(malformed(user, problem));
         }
+
         note_obstacles(&accessor, obstacles);
         if accessor.is_sparse {
             obstacles.keep_primitive("its indices are sparse");
@@ -272,6 +278,7 @@ impl PrimitiveReader<'_> {
         if accessor.count % 3 != 0 {
             obstacles.keep_primitive(format!("{} indices are not three a face", accessor.count));
         }
+
         let Some(records) = accessor.records else {
             obstacles.keep_primitive("its indices have no buffer view");
             return Ok(None);
@@ -289,28 +296,10 @@ impl PrimitiveReader<'_> {
         indices: Option<&IndexList>,
     ) -> Result<(), Problem> {
         let corners = indices.map_or(vertex_count, |indices| indices.records.count);
-        for (what, found, limit) in [
-            (
-                "vertices",
-                vertex_count,
-                self.options.limits.vertices.min(MAX_VERTICES),
-            ),
-            (
-                "faces",
-                corners / 3,
-                self.options.limits.faces.min(MAX_FACES),
-            ),
-        ] {
-            if found > limit {
-                return Err(FileErrorKind::OverLimit {
-                    what,
-                    found: found as u64,
-                    limit: limit as u64,
-                }
-                .at(Place::Json(self.primitive.pointer().to_owned())));
-            }
-        }
-        Ok(())
+        let limits = &self.options.limits;
+        let checked = check_vertex_count(vertex_count, limits);
+        let checked = checked.and_then(|()| check_face_count(corners / 3, limits));
+        checked.map_err(|kind| kind.at(Place::Json(self.primitive.pointer().to_owned())))
     }
 
     /// The numbers of all accessors that the primitive names, sound or not.

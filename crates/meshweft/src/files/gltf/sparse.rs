@@ -36,6 +36,7 @@ impl Accessors<'_> {
         let stored = member(sparse, "count").ok_or_else(incomplete)?;
         let [indices, values] = ["indices", "values"].map(|name| sparse.get(name));
         let (indices, values) = indices.zip(values).ok_or_else(incomplete)?;
+
         let width = match member(indices, "componentType") {
             Some(UNSIGNED_BYTE) => 1,
             Some(UNSIGNED_SHORT) => 2,
@@ -46,6 +47,7 @@ impl Accessors<'_> {
         if count > reach as usize {
             return Err("the numbers of its sparse elements do not reach all vertices".into());
         }
+
         for part in [sparse, indices, values] {
             let names = part.get("extensions").map(Value::members);
             let mut names = names.into_iter().flatten();
@@ -53,6 +55,7 @@ impl Accessors<'_> {
                 return Err(format!("the extension {name} on sparse data is not known"));
             }
         }
+
         let indices = self.part(indices, stored, width).ok_or_else(incomplete)?;
         let values = self.part(values, stored, size).ok_or_else(incomplete)?;
         let numbers = patch::numbers(self.bytes(&indices), &indices);

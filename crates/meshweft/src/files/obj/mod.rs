@@ -78,6 +78,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         obstacle,
         ..
     } = reader;
+
     let mut notes = Vec::new();
     let mut entries = Vec::new();
     if records.len() == 0 {
@@ -104,6 +105,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
             vertices_movable,
         });
     }
+
     let notation = ObjNotation {
         vertex_count: vertices.len(),
     };
@@ -194,6 +196,7 @@ impl<'a> ObjReader<'a> {
         let Some(keyword) = tokens.next() else {
             return Ok(());
         };
+
         match &text[keyword.clone()] {
             b"f" => return self.face(span, tokens),
             b"v" => self.vertex(span, tokens)?,
@@ -246,16 +249,19 @@ impl<'a> ObjReader<'a> {
                 Fault::malformed(span.start, text)
             })?;
         }
+
         let record = &self.source[span.clone()];
         if record.ends_with(b"\\") && !record.contains(&b'#') {
             // Before another line end it would swallow the line after it.
             let text = "a \\ at the end that is not followed by a line end: remove it";
             return Err(Fault::malformed(span.start, text));
         }
+
         if self.records.len() + self.lines.len() > 0 {
             let why = "this one comes after faces, lines or points".to_owned();
             self.obstacle.get_or_insert((span.start, why));
         }
+
         let at = span.start;
         self.vertices
             .push(span)
@@ -317,6 +323,7 @@ impl<'a> ObjReader<'a> {
                 self.attributes[1].2 |= named[1];
             }
         }
+
         let vertex_count = self.vertices.len();
         if number > 0 {
             self.largest = self.largest.max(number);

@@ -34,6 +34,7 @@ pub(super) fn read<R: Rows>(
         records: FaceRecords::default(),
         companions: Vec::new(),
     };
+
     let face_count = header.element("face").map_or(0, |face| face.count);
     for element in &header.elements {
         match element.name.as_str() {
@@ -71,6 +72,7 @@ fn pass_over<R: Rows>(
                 }
             }
         }
+
         let span = start..rows.end_row(&row)?;
         let at = span.start;
         seen(number, span).map_err(|kind| Fault { at, kind })?;
@@ -84,6 +86,8 @@ fn read_vertices<R: Rows>(rows: &mut R, element: &Element, body: &mut Body) -> R
         let spans = &mut body.vertices;
         return pass_over(rows, element, |_, span| spans.push(span));
     };
+
+    // Rows of one length are read at once.
     if let Some((start, positions)) = rows.positions(element, [x, y, z]) {
         let length = (rows.at() - start) / element.count.max(1);
         let pushed = body.vertices.push_even(start, length, element.count);
@@ -91,6 +95,7 @@ fn read_vertices<R: Rows>(rows: &mut R, element: &Element, body: &mut Body) -> R
         body.positions = positions;
         return Ok(());
     }
+
     let axis_of = |number: usize| [x, y, z].iter().position(|&axis| axis == number);
     let axes: Vec<Option<usize>> = (0..element.properties.len()).map(axis_of).collect();
     body.positions.reserve(rows.at_most(element));
@@ -110,6 +115,7 @@ fn read_vertices<R: Rows>(rows: &mut R, element: &Element, body: &mut Body) -> R
                 }
             }
         }
+
         let end = rows.end_row(&row)?;
         body.positions.push(position);
         let pushed = body.vertices.push(start..end);
@@ -133,58 +139,91 @@ fn read_faces<R: Rows>(
     let layout = TriangleLayout::of(element, list);
     let mut corners = Vec::new();
     body.records.reserve(rows.at_most(element), rows.left());
+
     let mut number = 0;
     while number < element.count {
+        let row = Row { element, number };
         let start = rows.start_row();
         if let Some(layout) = &layout {
-            let faces = &mut body.records.faces;
-            let first = faces.len();
-            let (read, length) = rows.triangles(layout, element.count - number, faces);
-            let bad = |face: &[u32; 3]| face.iter().position(|&v| v as usize >= vertex_count);
-            let bad = faces[first..]
-                .iter()
-                .enumerate()
-                .find_map(|(i, f)| Some((i, bad(f)?)));
-            if let Some((face, corner)) = bad {
-                let index = i64::from(faces[first + face][corner]);
-                let last = vertex_count.checked_sub(1);
-                let kind = past_the_last_vertex("face", number + face, corner, index, last);
-                let at = start + face * length;
-                return Err(Fault { at, kind });
-            }
-            let pushed = body.records.count_triangles(limits);
-            let pushed = pushed.and_then(|()| body.faces.push_even(start, length, read));
-            pushed.map_err(|kind| Fault { at: start, kind })?;
+            let read = read_triangles(rows, layout, &row, vertex_count, limits, body)?;
             number += read;
             if read > 0 {
                 continue;
             }
         }
-        let row = Row { element, number };
-        corners.clear();
-        for (property_number, property) in element.properties.iter().enumerate() {
-            match property.kind {
-                PropertyKind::Scalar(scalar) => rows.skip(1, scalar, &row)?,
-                PropertyKind::List { count, item } => {
-                    let count = rows.list_length(count, &row)?;
-                    if property_number != list {
-                        rows.skip(count, item, &row)?;
-                        continue;
-                    }
-                    for corner in 0..count {
-                        let at = rows.at();
-                        let index = rows.whole(item, &row)?;
-                        let vertex = corner_vertex(index, vertex_count, number, corner);
-                        corners.push(vertex.map_err(|kind| Fault { at, kind })?);
-                    }
-                }
-            }
-        }
+
+        read_corners(rows, list, &row, vertex_count, &mut corners)?;
         let end = rows.end_row(&row)?;
         let pushed = body.records.push(&corners, limits);
         let pushed = pushed.and_then(|()| body.faces.push(start..end));
         pushed.map_err(|kind| Fault { at: start, kind })?;
         number += 1;
+    }
+    Ok(())
+}
+
+/// Reads triangles of one layout from `row` on, which has been started, as long as there are any; how
+/// many.
+fn read_triangles<R: Rows>(
+    rows: &mut R,
+    layout: &TriangleLayout,
+    row: &Row<'_>,
+    vertex_count: usize,
+    limits: &Limits,
+    body: &mut Body,
+) -> Result<usize, Fault> {
+    let Row { element, number } = *row;
+    let start = rows.at();
+    let faces = &mut body.records.faces;
+    let first = faces.len();
+    let (read, length) = rows.triangles(layout, element.count - number, faces);
+
+    let bad = |face: &[u32; 3]| face.iter().position(|&v| v as usize >= vertex_count);
+    let bad = faces[first..]
+        .iter()
+        .enumerate()
+        .find_map(|(i, f)| Some((i, bad(f)?)));
+    if let Some((face, corner)) = bad {
+        let index = i64::from(faces[first + face][corner]);
+        let last = vertex_count.checked_sub(1);
+        let kind = past_the_last_vertex("face", number + face, corner, index, last);
+        let at = start + face * length;
+        return Err(Fault { at, kind });
+    }
+
+    let pushed = body.records.count_triangles(limits);
+    let pushed = pushed.and_then(|()| body.faces.push_even(start, length, read));
+    pushed.map_err(|kind| Fault { at: start, kind })?;
+    Ok(read)
+}
+
+/// Reads a row; `corners` gets what the list with this number holds.
+#[inline]
+fn read_corners<R: Rows>(
+    rows: &mut R,
+    list: usize,
+    row: &Row<'_>,
+    vertex_count: usize,
+    corners: &mut Vec<u32>,
+) -> Result<(), Fault> {
+    corners.clear();
+    for (number, property) in row.element.properties.iter().enumerate() {
+        match property.kind {
+            PropertyKind::Scalar(scalar) => rows.skip(1, scalar, row)?,
+            PropertyKind::List { count, item } => {
+                let count = rows.list_length(count, row)?;
+                if number != list {
+                    rows.skip(count, item, row)?;
+                    continue;
+                }
+                for corner in 0..count {
+                    let at = rows.at();
+                    let index = rows.whole(item, row)?;
+                    let vertex = corner_vertex(index, vertex_count, row.number, corner);
+                    corners.push(vertex.map_err(|kind| Fault { at, kind })?);
+                }
+            }
+        }
     }
     Ok(())
 }

@@ -148,12 +148,14 @@ pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
         let text = "a PLY file starts with the word ply: is it another format?".into();
         return Err(malformed(0, text));
     }
+
     // Lines may end with a lone `\r`; the first line shows it. It has to be known, for the first
     // byte after the last `\r` of such a header may be a `\n`.
     let first = source.iter().position(|&byte| is_line_end(byte));
     let only_returns =
         first.is_some_and(|at| source[at] == b'\r' && source.get(at + 1) != Some(&b'\n'));
     let ending = if only_returns { b'\r' } else { b'\n' };
+
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
     let mut at = 0;
@@ -162,6 +164,7 @@ pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
         let length = source[start..].iter().position(|&byte| byte == ending);
         let end = length.map_or(source.len(), |length| start + length);
         at = (end + 1).min(source.len());
+
         let line = &source[start..end];
         let mut words = line
             .split(|&b| is_blank(b) || is_line_end(b))
@@ -170,37 +173,16 @@ pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
             b"ply" | b"comment" | b"obj_info" | b"" => {}
             b"format" => {
                 let word = words.next().unwrap_or_default();
-                encoding = Some(match word {
-                    b"ascii" => Encoding::Ascii,
-                    b"binary_little_endian" => Encoding::LittleEndian,
-                    b"binary_big_endian" => Encoding::BigEndian,
-                    other => {
-                        let text = format!("the format {} is not one of PLY", shown(other));
-                        return Err(malformed(start, text));
-                    }
-                });
+                encoding = Some(parse_encoding(word).map_err(|text| malformed(start, text))?);
             }
             b"element" => {
-                let name = String::from_utf8_lossy(words.next().unwrap_or_default()).into_owned();
-                let word = words.next().unwrap_or_default();
-                let count = whole_number(word).and_then(|n| usize::try_from(n).ok());
-                let count = count.ok_or_else(|| {
-                    let text = format!(
-                        "the element {name:?} has {} rows, which is not a count",
-                        shown(word)
-                    );
-                    malformed(start, text)
-                })?;
-                if elements.iter().any(|element| element.name == name) {
-                    let text = format!("the element {name:?} is declared a second time");
+                let element = element(&mut words, line_of(source, start));
+                let element = element.map_err(|text| malformed(start, text))?;
+                if elements.iter().any(|other| other.name == element.name) {
+                    let text = format!("the element {:?} is declared a second time", element.name);
                     return Err(malformed(start, text));
                 }
-                elements.push(Element {
-                    name,
-                    count,
-                    properties: Vec::new(),
-                    line: line_of(source, start),
-                });
+                elements.push(element);
             }
             b"property" => {
                 let property = property(&mut words).map_err(|text| malformed(start, text))?;
@@ -229,8 +211,36 @@ pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
             }
         }
     }
+
     let what = "the header: there is no end_header";
     Err(FileErrorKind::truncated(what).at(Place::Line(line_of(source, source.len()))))
+}
+
+/// What a `format` line says.
+fn parse_encoding(word: &[u8]) -> Result<Encoding, String> {
+    match word {
+        b"ascii" => Ok(Encoding::Ascii),
+        b"binary_little_endian" => Ok(Encoding::LittleEndian),
+        b"binary_big_endian" => Ok(Encoding::BigEndian),
+        other => Err(format!("the format {} is not one of PLY", shown(other))),
+    }
+}
+
+/// What an `element` line declares, without its properties.
+fn element<'a>(words: &mut impl Iterator<Item = &'a [u8]>, line: usize) -> Result<Element, String> {
+    let name = String::from_utf8_lossy(words.next().unwrap_or_default()).into_owned();
+    let word = words.next().unwrap_or_default();
+    let count = whole_number(word).and_then(|n| usize::try_from(n).ok());
+    let count = count.ok_or_else(|| {
+        let rows = shown(word);
+        format!("the element {name:?} has {rows} rows, which is not a count")
+    })?;
+    Ok(Element {
+        name,
+        count,
+        properties: Vec::new(),
+        line,
+    })
 }
 
 /// What a `property` line declares.

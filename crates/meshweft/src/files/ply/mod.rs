@@ -114,6 +114,7 @@ fn finish(bytes: Vec<u8>, header: &PlyHeader, plan: Plan, body: Body) -> ReadRes
                 .flatten(),
         );
     }
+
     let file = RecordFile {
         source: bytes,
         vertices: body.vertices,

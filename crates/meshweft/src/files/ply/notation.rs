@@ -78,6 +78,8 @@ impl PlyNotation {
         let size = item.size();
         let copy_start = out.len();
         out.extend_from_slice(record);
+
+        // The usual size, without a copy of each index.
         if size == 4 {
             let corners = record[start..].as_chunks::<4>().0;
             let slots = out[copy_start + start..].as_chunks_mut::<4>().0;
@@ -95,6 +97,7 @@ impl PlyNotation {
             }
             return;
         }
+
         for corner in 0..count {
             let turned = start + change.turned(corner, count) * size;
             let bytes = &record[turned..turned + size];
@@ -158,6 +161,7 @@ impl Notation for PlyNotation {
             });
             return;
         }
+
         let at_once = self.first_corner.and_then(|(first, item)| {
             let count = usize::from(*record.get(first - 1)?);
             Some((first, count, item))
@@ -171,6 +175,7 @@ impl Notation for PlyNotation {
         let Some(corners) = corners else {
             return rewrite.out.extend_from_slice(record);
         };
+
         match self.encoding {
             Encoding::Ascii => {
                 let (start, count, _) = corners;

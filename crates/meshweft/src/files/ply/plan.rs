@@ -46,6 +46,7 @@ impl Plan {
             corners_turnable: true,
         };
         let face = header.element("face");
+
         for element in &header.elements {
             match element.name.as_str() {
                 "vertex" => plan.look_at_vertex(element),
@@ -105,6 +106,7 @@ impl Plan {
                 }
             }
         }
+
         let list = list.map(|list| element.properties[list].kind);
         if let Some(PropertyKind::List { item, .. }) = list
             && vertex_count as u64 > item.largest().saturating_add(1)

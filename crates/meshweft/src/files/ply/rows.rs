@@ -314,10 +314,12 @@ impl<const BIG: bool> Rows for Binary<'_, BIG> {
         if offsets.iter().any(|&(_, scalar)| scalar != Scalar::F32) {
             return None;
         }
+
         let start = self.at;
         let end = element.count.checked_mul(length)?.checked_add(start)?;
         let rows = self.source.get(start..end)?;
         self.at = end;
+
         let position = |row: &[u8]| {
             offsets.map(|(offset, _)| {
                 let bytes = row[offset..].first_chunk().copied().unwrap_or_default();
@@ -345,6 +347,7 @@ impl<const BIG: bool> Rows for Binary<'_, BIG> {
         } else {
             u32::MAX
         };
+
         for row in self.source[self.at..].chunks_exact(length).take(count) {
             let Some([3, corners @ ..]) = row[layout.before..].first_chunk::<13>() else {
                 break;
@@ -361,6 +364,7 @@ impl<const BIG: bool> Rows for Binary<'_, BIG> {
             }
             faces.push([a, b, c]);
         }
+
         let read = faces.len() - before;
         self.at += read * length;
         (read, length)

@@ -33,6 +33,7 @@ pub(super) fn read(text: &[u8], at: usize, limits: &Limits) -> Result<Facets, Pr
         runs: Vec::new(),
         name: None,
     };
+
     let mut solids = 0;
     while let Some(token) = reader.tokens.next() {
         reader.is_word(&token, b"solid", || {
@@ -41,6 +42,7 @@ pub(super) fn read(text: &[u8], at: usize, limits: &Limits) -> Result<Facets, Pr
         reader.solid(solids, limits)?;
         solids += 1;
     }
+
     let name = match reader.name {
         Some(name) => String::from_utf8_lossy(&text[name]).into_owned(),
         None => "mesh".to_owned(),
@@ -104,8 +106,10 @@ impl AsciiStlReader<'_> {
                 return Err(self.problem(token.start, FileErrorKind::malformed(text)));
             }
         }
+
         self.word(b"outer")?;
         self.word(b"loop")?;
+
         let mut corners = [[0; 3]; 3];
         for (corner, bits) in corners.iter_mut().enumerate() {
             self.word(b"vertex")?;
@@ -122,6 +126,7 @@ impl AsciiStlReader<'_> {
                 *value = parsed.to_bits();
             }
         }
+
         self.word(b"endloop")?;
         self.word(b"endfacet")?;
         let pushed = self.spans.push(start..self.tokens.at());

@@ -34,6 +34,7 @@ pub(super) fn read(bytes: &[u8], limits: &Limits) -> Result<Facets, Problem> {
         let what = "the 84 bytes that a binary STL file starts with (an ascii one starts with the word solid)";
         return Err(FileErrorKind::truncated(what).at(end));
     };
+
     let there = (bytes.len() - HEADER) / FACET;
     // A count beyond 32 bits is one beyond what is there, whatever the width of `usize`.
     let wanted = usize::try_from(count).unwrap_or(usize::MAX);
@@ -48,7 +49,9 @@ pub(super) fn read(bytes: &[u8], limits: &Limits) -> Result<Facets, Problem> {
         };
         return Err(kind.at(end));
     }
+
     check_face_count(wanted, limits).map_err(|kind| kind.at(Place::Byte(HEADER - 4)))?;
+
     let mut spans = Spans::new();
     let mut corners = Vec::with_capacity(wanted);
     for facet in 0..wanted {

@@ -69,6 +69,7 @@ fn content<N: Notation + 'static>(
             corners_turnable: true,
         });
     }
+
     let file = RecordFile {
         source,
         vertices: Spans::new(),
@@ -99,6 +100,8 @@ fn welded(facets: &[[[u32; 3]; 3]], limits: &Limits) -> Result<Mesh, FileErrorKi
         check_vertex_count(unique.len(), limits)?;
         records.push(&face, limits)?;
     }
+
+    // Numbers by bits, so that they do not depend on the order of facets.
     drop(numbers);
     unique.sort_unstable();
     let mut sorted_of = vec![0; unique.len()];
@@ -108,6 +111,7 @@ fn welded(facets: &[[[u32; 3]; 3]], limits: &Limits) -> Result<Mesh, FileErrorKi
     for vertex in records.faces.as_flattened_mut() {
         *vertex = sorted_of[*vertex as usize];
     }
+
     let positions = unique.iter().map(|(bits, _)| bits.map(f32::from_bits));
     let mesh = Mesh::new(positions.collect::<Vec<_>>(), records.faces);
     mesh.map_err(|error| FileErrorKind::malformed(error.to_string()))

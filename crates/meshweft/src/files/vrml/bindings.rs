@@ -4,6 +4,7 @@ use super::lexer::index;
 use super::lists::{Groups, Polygons, positions};
 use super::scene::{Child, FaceSet, List, Role, Scene};
 use crate::Mesh;
+use crate::error::MeshError;
 use crate::files::entry::MeshEntry;
 use crate::files::error::Fault;
 use crate::files::face_records::{FaceRecords, check_vertex_count, corner_vertex};
@@ -68,6 +69,8 @@ impl Binder<'_> {
         if own_name.is_some_and(|name| self.scene.routed.contains(name)) {
             return stays("a ROUTE may replace its fields");
         }
+
+        // Its points.
         let points = match &set.children[Role::Coord as usize] {
             Child::None => return stays("it has no coord"),
             Child::Used(None) => return stays("no Coordinate above it has the name of its coord"),
@@ -84,6 +87,8 @@ impl Binder<'_> {
         let vertex_count = points.count / 3;
         let at = points.content.start;
         check_vertex_count(vertex_count, self.limits).map_err(|kind| Fault { at, kind })?;
+
+        // What goes by corner, by vertex and by face.
         let mut corners = self.corners(set, vertex_count)?;
         let mut slots = Slots {
             polygons: vec![std::mem::replace(&mut corners.spans, Spans::new())],
@@ -104,15 +109,17 @@ impl Binder<'_> {
                 }
             }
         }
+
         let count = corners.records.len();
         let mut runs = vec![0];
         if corners.is_open && count > 1 {
             // The last polygon has no -1 after it, and would need one anywhere else.
             runs.push(index32(count - 1));
         }
-        let malformed = |error: crate::MeshError| {
-            Stop::Fault(Fault::malformed(set.span.start, error.to_string()))
-        };
+
+        // Its mesh.
+        let malformed =
+            |error: MeshError| Stop::Fault(Fault::malformed(set.span.start, error.to_string()));
         let (mesh, obstacle) = match &set.children[Role::Coord as usize] {
             Child::Used(Some(shared)) => {
                 let positions = self.shared_positions(*shared)?;
@@ -129,6 +136,7 @@ impl Binder<'_> {
             }
         };
         vertices_stay = obstacle.or(vertices_stay);
+
         let name = match &set.name {
             Some(name) => String::from_utf8_lossy(&self.text[name.clone()]).into_owned(),
             None => format!("mesh {number}"),
@@ -182,6 +190,7 @@ impl Binder<'_> {
             is_open: false,
             has_empty: false,
         };
+
         let mut corners = Vec::new();
         while let Some(polygon) = polygons.next()? {
             let face = found.records.len();
@@ -191,6 +200,7 @@ impl Binder<'_> {
                 let vertex = corner_vertex(number, vertex_count, face, corner);
                 corners.push(vertex.map_err(|kind| Fault { at, kind })?);
             }
+
             found.has_empty |= corners.is_empty();
             found.is_open |= polygon.is_open;
             let pushed = found.records.push(&corners, self.limits);
@@ -223,6 +233,7 @@ impl Binder<'_> {
                 ));
             }
         };
+
         if list.count / numbers_each < count {
             return stays(format!("its {what} goes by face and has less than faces"));
         }
@@ -231,6 +242,7 @@ impl Binder<'_> {
                 "its {what} goes by face, and there are faces without corners"
             ));
         }
+
         let mut spans = Spans::new();
         for span in Groups::new(self.text, list, numbers_each).take(count) {
             if numbers_each == 1 && index(&self.text[span.clone()]).is_none_or(|n| n < 0) {
@@ -263,6 +275,7 @@ impl Binder<'_> {
             slots.polygons.push(spans);
             return Ok(None);
         }
+
         let numbers_each = if role == Role::TexCoord { 2 } else { 3 };
         let field = role.field();
         match child {
@@ -324,7 +337,7 @@ impl Binder<'_> {
 
 /// The mesh of the vertices that its faces name: several face sets may share many points and name
 /// few each.
-fn of_used(points: &[[f32; 3]], mut faces: Vec<[u32; 3]>) -> Result<Mesh, crate::MeshError> {
+fn of_used(points: &[[f32; 3]], mut faces: Vec<[u32; 3]>) -> Result<Mesh, MeshError> {
     let mut used = faces.as_flattened().to_vec();
     used.sort_unstable();
     used.dedup();

@@ -16,6 +16,7 @@ impl VrmlReader<'_> {
             let mut roles = Role::ALL.into_iter();
             roles.find(|role| role.names()[which].as_bytes() == word)
         };
+
         if let Some(role) = named(3) {
             let list = self.list(span)?;
             let Some((set, _)) = self.face_set() else {
@@ -30,6 +31,7 @@ impl VrmlReader<'_> {
             }
             return Ok(());
         }
+
         let field = named(0);
         let is_value = matches!(
             word,
@@ -85,11 +87,13 @@ impl VrmlReader<'_> {
         if in_brackets {
             self.lexer.token()?;
         }
+
         let start = self.lexer.at();
         let mut list = List {
             content: start..start,
             count: 0,
         };
+
         loop {
             let mut ahead = self.lexer.clone();
             match ahead.token()? {

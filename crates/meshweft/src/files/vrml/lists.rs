@@ -28,6 +28,7 @@ pub(super) fn positions(
                 Fault::malformed(word.start, text)
             })?;
         }
+
         positions.push(position);
         if let Some(spans) = &mut spans {
             let at = span.start;
@@ -84,6 +85,7 @@ impl<'a> Polygons<'a> {
                 }
             }
         }
+
         Ok(span.map(|span| Polygon {
             span,
             is_open: true,

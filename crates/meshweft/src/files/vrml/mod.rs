@@ -99,6 +99,7 @@ fn header(bytes: &[u8]) -> Result<usize, Problem> {
         // The header is a comment like any other.
         return Ok(mark);
     }
+
     let trimmed = text.trim_ascii_start();
     let kind = if text.starts_with(b"#VRML V1") || text.starts_with(b"#Inventor") {
         FileErrorKind::unsupported(
@@ -206,6 +207,7 @@ impl Set {
         let old_to_new = orders.old_to_new();
         let old_to_new = old_to_new.as_slice();
         let mut layers = Vec::new();
+
         for (list, spans) in self.slots.polygons.iter().enumerate() {
             let mut corners = Vec::new();
             layers.push(Layer::new(spans, move |slots, out| {
@@ -229,6 +231,7 @@ impl Set {
                 }
             }));
         }
+
         for spans in &self.slots.companions {
             layers.push(Layer::moved(spans, source, &orders.records));
         }

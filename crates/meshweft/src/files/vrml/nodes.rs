@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::lexer::{Lexer, Token};
-use super::reader::{Frame, FrameKind, VrmlReader};
+use super::reader::{Frame, FrameKind, Points, VrmlReader};
 use super::scene::{Child, FaceSet, List, Role, Scene};
 use crate::files::error::{Fault, FileErrorKind};
 use crate::files::text::shown;
@@ -116,21 +116,22 @@ impl<'a> VrmlReader<'a> {
             self.word = Some(span);
             return Ok(());
         };
+
         match &mut frame.kind {
             FrameKind::Script if matches!(word, b"SFNode" | b"MFNode") => {
                 self.scene.script_reads_nodes = true;
             }
-            FrameKind::Points { role, .. } => {
-                let role = *role;
+            FrameKind::Points(points) => {
+                let role = points.role;
                 if word == role.names()[2].as_bytes() {
                     let found = self.list(span)?;
                     if let Some(Frame {
-                        kind: FrameKind::Points { list, is_odd, .. },
+                        kind: FrameKind::Points(points),
                         ..
                     }) = self.frames.last_mut()
                     {
-                        *is_odd |= found.is_none() || list.is_some();
-                        *list = found;
+                        points.is_odd |= found.is_none() || points.list.is_some();
+                        points.list = found;
                     }
                     return Ok(());
                 }
@@ -160,7 +161,7 @@ impl<'a> VrmlReader<'a> {
     fn odd(&mut self, what: &str) {
         match self.frames.last_mut().map(|frame| &mut frame.kind) {
             Some(FrameKind::FaceSet(set, _)) => set.obstacle(format!("{what} stands in it")),
-            Some(FrameKind::Points { is_odd, .. }) => *is_odd = true,
+            Some(FrameKind::Points(points)) => points.is_odd = true,
             _ => {}
         }
     }
@@ -171,17 +172,22 @@ impl<'a> VrmlReader<'a> {
         let name = own_name.clone().or(around);
         let at = node.start;
         let kind = &self.text[node];
+
         let waiting = self.face_set().map(|(_, role)| role.take());
-        let points = |role, on_face_set, own_name| FrameKind::Points {
-            role,
-            on_face_set,
-            own_name,
-            list: None,
-            is_odd: false,
+        let points = |role, on_face_set, own_name| {
+            FrameKind::Points(Points {
+                role,
+                on_face_set,
+                own_name,
+                list: None,
+                is_odd: false,
+            })
         };
+
         if waiting.is_none() {
             self.odd("a node");
         }
+
         let kind = match (waiting, kind) {
             (Some(Some(role)), kind) if kind == role.names()[1].as_bytes() => {
                 points(role, true, own_name)
@@ -239,6 +245,7 @@ impl<'a> VrmlReader<'a> {
             let text = format!("a {} that closes nothing", char::from(mark));
             return Err(Fault::malformed(at, text));
         };
+
         match frame.kind {
             FrameKind::Interface => match self.lexer.token()? {
                 Some(Token::Mark(b'{', at)) => {
@@ -254,40 +261,42 @@ impl<'a> VrmlReader<'a> {
             }
             FrameKind::FaceSet(mut set, _) => {
                 set.span.end = at + 1;
-                let corners = &set.indices[Role::Coord as usize];
-                let has_faces = corners.as_ref().is_some_and(|list| list.count > 0);
-                match set.obstacle.take() {
-                    Some(why) => self.scene.refused.push((set.span.start, why)),
-                    None if has_faces => self.scene.face_sets.push(*set),
-                    None => {}
-                }
+                self.close_face_set(set);
             }
-            FrameKind::Points {
-                role,
-                on_face_set,
-                own_name,
-                list,
-                is_odd,
-            } => {
-                let list = list.unwrap_or(List::EMPTY);
-                if role == Role::Coord
-                    && let Some(name) = &own_name
-                    && let Some(scope) = self.scopes.last_mut()
-                    && !is_odd
-                {
-                    scope.insert(&self.text[name.clone()], Some(self.scene.coordinates.len()));
-                    self.scene.coordinates.push(list.clone());
-                }
-                if let Some((set, _)) = self.face_set().filter(|_| on_face_set) {
-                    if is_odd {
-                        let field = role.field();
-                        set.obstacle(format!("its {field} holds more than a list of numbers"));
-                    }
-                    set.hang(role, Child::Own(own_name, list));
-                }
-            }
+            FrameKind::Points(points) => self.close_points(points),
             FrameKind::Other | FrameKind::Script => {}
         }
         Ok(())
+    }
+
+    /// Keeps a face set that has faces, or the reason why it cannot be ordered.
+    fn close_face_set(&mut self, mut set: Box<FaceSet>) {
+        let corners = &set.indices[Role::Coord as usize];
+        let has_faces = corners.as_ref().is_some_and(|list| list.count > 0);
+        match set.obstacle.take() {
+            Some(why) => self.scene.refused.push((set.span.start, why)),
+            None if has_faces => self.scene.face_sets.push(*set),
+            None => {}
+        }
+    }
+
+    /// Hangs a list on its face set, and keeps it by name if a `USE` may ask for it.
+    fn close_points(&mut self, points: Points) {
+        let list = points.list.unwrap_or(List::EMPTY);
+        if points.role == Role::Coord
+            && let Some(name) = &points.own_name
+            && let Some(scope) = self.scopes.last_mut()
+            && !points.is_odd
+        {
+            scope.insert(&self.text[name.clone()], Some(self.scene.coordinates.len()));
+            self.scene.coordinates.push(list.clone());
+        }
+        if let Some((set, _)) = self.face_set().filter(|_| points.on_face_set) {
+            if points.is_odd {
+                let field = points.role.field();
+                set.obstacle(format!("its {field} holds more than a list of numbers"));
+            }
+            set.hang(points.role, Child::Own(points.own_name, list));
+        }
     }
 }

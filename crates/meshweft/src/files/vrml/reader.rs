@@ -23,15 +23,17 @@ pub(super) enum FrameKind {
     Interface,
     Body,
     FaceSet(Box<FaceSet>, Option<Role>),
-    /// A node with a list that is looked at; on a face set unless it is a `Coordinate` elsewhere.
-    Points {
-        role: Role,
-        on_face_set: bool,
-        own_name: Option<Range<usize>>,
-        list: Option<List>,
-        /// There is something else in it.
-        is_odd: bool,
-    },
+    Points(Points),
+}
+
+/// A node with a list that is looked at; on a face set unless it is a `Coordinate` elsewhere.
+pub(super) struct Points {
+    pub(super) role: Role,
+    pub(super) on_face_set: bool,
+    pub(super) own_name: Option<Range<usize>>,
+    pub(super) list: Option<List>,
+    /// There is something else in it.
+    pub(super) is_odd: bool,
 }
 
 /// A file while its nodes are read.
