@@ -7,7 +7,7 @@ use super::text::{leading_number, push_number};
 /// What happens to the corners of a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change<'a> {
-    /// As [`FaceOrder::rotation`].
+    /// As [`FaceOrder::rotation`](crate::FaceOrder::rotation).
     pub(super) rotation: usize,
     /// The new number of each vertex; empty if they keep theirs.
     pub(super) old_to_new: &'a [u32],

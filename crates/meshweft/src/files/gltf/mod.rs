@@ -15,8 +15,12 @@
 //!
 //! | word | what it is |
 //! |---|---|
+//! | `Container` | the file around its JSON: the chunks of a GLB, or text alone |
 //! | `Storage` | bytes of the file or of a buffer beside it; several buffers may stand for one |
 //! | `StridedRecords` | equal pieces of a storage at equal distances: what a permutation moves |
+//! | `Accessor` | an accessor of the file, its bounds checked, as records |
+//! | `IndexList` | records that are vertex numbers: the corners of faces, or an outline |
+//! | `Sparse` | elements stored by number: their numbers, and their values |
 //! | `Obstacles` | why a primitive stays, or only its vertices, while its JSON is read |
 //! | `VertexObstacle` | one reason why vertices stay, and where it stands |
 //! | `Movable` | a primitive that may move, as far as itself is concerned |
@@ -24,6 +28,7 @@
 //! | `Staying` | a primitive that stays as it is, and why |
 //! | `ByteUsers` | all records of the file, each (`UsedRecords`) with those who read it |
 //! | `Group` | primitives that share data, and so one vertex order |
+//! | `Corners` | where the corners of a mesh are stored: in a list, or as vertices in a row |
 //! | `Entries` | the meshes that are offered, each with the records of its corners |
 //! | `Missing` | why a buffer has no bytes |
 
