@@ -1,15 +1,30 @@
 //! `compare`: are these the same triangles, and which order is better?
 
 use std::cmp::Ordering;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use clap::Args;
 use meshweft::files::{Document, MeshEntry};
 use meshweft::{CacheModel, Limits};
 use serde_json::{Value, json};
 
-use crate::args::Compare;
+use crate::caches::Caches;
+use crate::columns::columns;
 use crate::count::Counts;
+use crate::run::output::{self, Report};
+
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    /// The first file
+    a: PathBuf,
+    /// The second file; another format is fine
+    b: PathBuf,
+    #[command(flatten)]
+    caches: Caches,
+    #[command(flatten)]
+    report: Report,
+}
 
 /// Prints how two files differ as triangles and in misses.
 pub(crate) fn run(arguments: &Compare) -> Result<()> {
@@ -18,12 +33,10 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     let (a, b) = (open(&arguments.a)?, open(&arguments.b)?);
     let counts = [&a, &b].map(|document| {
         let entries = document.meshes();
-        let counts: Vec<_> = entries
-            .iter()
-            .map(|e| Counts::of(&e.mesh, &models))
-            .collect();
-        Counts::total(entries, &counts, &models)
+        let each = entries.iter().map(|e| Counts::of(&e.mesh, &models));
+        Counts::total(entries, &each.collect::<Vec<_>>(), &models)
     });
+
     // Positions tell vertices apart whatever their numbers; without them the numbers must do.
     let entries = || a.meshes().iter().chain(b.meshes());
     let by_position = entries().all(|e| e.mesh.positions().len() == e.mesh.vertex_count());
@@ -33,14 +46,14 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
     );
     let same = only_a == 0 && only_b == 0;
     let better = better(&counts, &models);
+
     let side = |document: &Document, counts: &Counts| {
         let mut object = counts.json();
         let file = document.path().display().to_string();
         object.shift_insert(0, "file".into(), json!(file));
         Value::Object(object)
     };
-    arguments.report.json(&json!({
-        "schema": 1,
+    let members = json!({
         "a": side(&a, &counts[0]),
         "b": side(&b, &counts[1]),
         "same_triangles": same,
@@ -48,7 +61,8 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
         "only_in_a": only_a,
         "only_in_b": only_b,
         "better": better,
-    }))?;
+    });
+
     let verdict = match same {
         true => "the same triangles".to_owned(),
         false => format!("different triangles: {only_a} only in a, {only_b} only in b"),
@@ -61,14 +75,17 @@ pub(crate) fn run(arguments: &Compare) -> Result<()> {
             format!("{acmr_b:.4}"),
         ]);
     }
-    arguments.report.text(&format!(
+    let text = format!(
         "a: {}\nb: {}\n{verdict}\n{}\nbetter: {better}",
         a.path().display(),
         b.path().display(),
-        crate::inspect::columns(&rows)
-    ))?;
-    let notes = [&a, &b].map(crate::output::note_lines).concat();
-    Ok(arguments.report.notes(&notes)?)
+        columns(&rows)
+    );
+
+    let report = &arguments.report;
+    report.json("compare", &members)?;
+    report.text(&text)?;
+    Ok(report.notes(&[&a, &b].map(output::note_lines).concat())?)
 }
 
 /// Which side misses less: under the first model that tells them apart.

@@ -1,18 +1,39 @@
 //! `inspect`: counts, without writing anything.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Error, Result};
+use clap::Args;
 use meshweft::files::Document;
 use meshweft::{CacheModel, Limits, Mesh};
 use serde_json::{Value, json};
 
-use crate::args::Inspect;
+use crate::caches::Caches;
+use crate::columns::columns;
 use crate::count::Counts;
-use crate::inputs;
 use crate::methods::METHODS;
 use crate::plot::{self, Curve};
+use crate::run::inputs;
+use crate::run::output::{self, Report};
+use crate::usage;
+
+#[derive(Debug, Args)]
+pub(crate) struct Inspect {
+    /// Files, folders with files, or patterns
+    #[arg(required = true, value_name = "IN")]
+    inputs: Vec<PathBuf>,
+    /// Draw misses per face over the size of a FIFO cache: one curve a file
+    #[arg(long, value_name = "OUT.svg")]
+    plot: Option<PathBuf>,
+    /// Draw beside each file's curve those of its orders by every method here
+    #[arg(long, requires = "plot")]
+    methods: bool,
+    #[command(flatten)]
+    caches: Caches,
+    #[command(flatten)]
+    report: Report,
+}
 
 /// Prints the counts of each file.
 pub(crate) fn run(arguments: &Inspect) -> Result<()> {
@@ -24,7 +45,7 @@ pub(crate) fn run(arguments: &Inspect) -> Result<()> {
             Ok(more) => curves.extend(more),
             Err(error) => {
                 if let Some(earlier) = failed.replace(error) {
-                    eprintln!("error: {earlier:#}");
+                    eprintln!("error: {}", usage::message(&earlier));
                 }
             }
         }
@@ -61,11 +82,10 @@ fn curves(document: &Document, with_methods: bool) -> Vec<Curve> {
 fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<Vec<Curve>> {
     let document = Document::open(path, Limits::default())?;
     let entries = document.meshes();
-    let counts: Vec<_> = entries
-        .iter()
-        .map(|e| Counts::of(&e.mesh, models))
-        .collect();
+    let each = entries.iter().map(|e| Counts::of(&e.mesh, models));
+    let counts: Vec<_> = each.collect();
     let total = Counts::total(entries, &counts, models);
+
     let meshes: Vec<Value> = entries
         .iter()
         .zip(&counts)
@@ -75,18 +95,18 @@ fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<Ve
             Value::Object(object)
         })
         .collect();
-    arguments.report.json(&json!({
-        "schema": 1,
+    let members = json!({
         "file": path.display().to_string(),
         "format": document.format().to_string(),
         "meshes": meshes,
         "total": total.json(),
-        "notes": crate::output::notes_json(&document),
-    }))?;
-    arguments.report.text(&text(&document, &counts, &total))?;
-    arguments
-        .report
-        .notes(&crate::output::note_lines(&document))?;
+        "notes": output::notes_json(&document),
+    });
+
+    let report = &arguments.report;
+    report.json("inspect", &members)?;
+    report.text(&text(&document, &counts, &total))?;
+    report.notes(&output::note_lines(&document))?;
     Ok(match arguments.plot {
         Some(_) => curves(&document, arguments.methods),
         None => Vec::new(),
@@ -104,6 +124,7 @@ fn text(document: &Document, counts: &[Counts], total: &Counts) -> String {
         rows[0].push(format!("ACMR {model}"));
         rows[0].push("ATVR".into());
     }
+
     let row = |name: &str, counts: &Counts| {
         let sizes = [counts.faces, counts.vertices, counts.used_vertices];
         let sizes = sizes.map(|n| n.to_string());
@@ -119,24 +140,4 @@ fn text(document: &Document, counts: &[Counts], total: &Counts) -> String {
         rows.push(row("total", total));
     }
     format!("{}\n{}", document.path().display(), columns(&rows))
-}
-
-/// Rows as lines, the first column to the left, the others to the right.
-pub(crate) fn columns(rows: &[Vec<String>]) -> String {
-    let mut widths = Vec::new();
-    for row in rows {
-        widths.resize(row.len().max(widths.len()), 0);
-        for (width, cell) in widths.iter_mut().zip(row) {
-            *width = cell.chars().count().max(*width);
-        }
-    }
-    let line = |row: &Vec<String>| {
-        let cell = |(column, cell): (usize, &String)| match column {
-            0 => format!("{cell:<0$}", widths[0]),
-            _ => format!("  {cell:>0$}", widths[column]),
-        };
-        let line: String = row.iter().enumerate().map(cell).collect();
-        line.trim_end().to_owned()
-    };
-    rows.iter().map(line).collect::<Vec<_>>().join("\n")
 }

@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use meshweft::{CacheModel, cache};
 
+use crate::count::ratio;
+
 /// Cache sizes of a curve.
 const SIZES: [u32; 22] = [
     3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 80, 96, 128,
@@ -36,7 +38,7 @@ impl Curve {
         let acmr = |size: &u32| {
             let misses = |faces: &[[u32; 3]]| cache::misses(faces, CacheModel::fifo(*size));
             let sum: u64 = meshes.clone().map(misses).sum();
-            crate::count::ratio(sum as f64, face_count)
+            ratio(sum as f64, face_count)
         };
         Self {
             name,

@@ -5,17 +5,32 @@ mod meshes;
 mod picture;
 
 use std::fs;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
+use clap::Args;
 use meshweft::order::baselines::{random, tipsify};
 use meshweft::order::{Effort, Mode, vertex_fetch};
 use meshweft::{CacheModel, FaceOrder, Mesh, cache};
 use serde_json::{Value, json};
 
-use crate::args::Demo;
-use crate::inspect::columns;
+use crate::columns::columns;
 use crate::methods::{k_cache_reorder, universal};
+use crate::run::output::Report;
+
+#[derive(Debug, Args)]
+pub(crate) struct Demo {
+    /// The folder to write to
+    #[arg(short, long, value_name = "DIR", default_value = "meshweft-demo")]
+    output: PathBuf,
+    /// About how many faces each mesh has
+    #[arg(long, value_name = "N", default_value_t = 100_000,
+          value_parser = clap::value_parser!(u32).range(500..=4_000_000))]
+    faces: u32,
+    #[command(flatten)]
+    report: Report,
+}
 
 /// Cache sizes of the columns.
 const SIZES: [u32; 3] = [12, 16, 32];
@@ -44,6 +59,8 @@ const METHODS: [Method; 6] = [
 pub(crate) fn run(arguments: &Demo) -> Result<()> {
     let folder = &arguments.output;
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+
+    // The meshes.
     let knot = meshes::knot(arguments.faces);
     let surface = meshes::isosurface(arguments.faces);
     let inputs = [
@@ -60,6 +77,8 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
             meshes::shuffled(&surface),
         ),
     ];
+
+    // The orders.
     let mut results = Vec::new();
     for (name, title, mesh) in &inputs {
         let rows: Vec<Row> = METHODS.iter().map(|method| row(mesh, method)).collect();
@@ -71,6 +90,8 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
             "methods": rows.iter().map(Row::json).collect::<Vec<_>>(),
         }));
     }
+
+    // The files.
     let ordered = |mesh: &Mesh| {
         let mesh = mesh.with_face_order(&k_cache_reorder(mesh, 12, Mode::Fast));
         mesh.with_vertex_order(&vertex_fetch(&mesh))
@@ -85,12 +106,9 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
     write("isosurface.glb", glb::glb(&ordered(&surface), "isosurface"))?;
     let picture = picture::before_and_after(&surface, &ordered(&surface), CacheModel::fifo(12));
     write("before-after.png", picture)?;
-    arguments.report.json(&json!({
-        "schema": 1,
-        "command": "demo",
-        "meshes": results,
-        "files": files,
-    }))?;
+
+    let members = json!({"meshes": results, "files": files});
+    arguments.report.json("demo", &members)?;
     let text = format!(
         "written: {}\nIn the picture, left before, right after: grey faces hit the cache of 12 with \
          all corners,\nblue ones miss one, yellow ones two, red ones three.",

@@ -6,7 +6,8 @@ use meshweft::cache::Schedule;
 use meshweft::order::{self, KCacheReorder, Optimizer, Target};
 use meshweft::{Budget, CacheModel, FaceOrder, Mesh, Progress};
 
-use crate::args::{Effort, Mode, Optimize, Usage};
+use super::arguments::{Effort, Mode, Optimize};
+use crate::usage::Usage;
 
 /// The largest cache that orders are made for here.
 const MAX_SIZE: u32 = 1024;
@@ -187,18 +188,15 @@ fn check_size(target: Target) -> Result<(), Usage> {
 
 #[cfg(test)]
 mod tests {
-    use clap::Parser;
+    use clap::{Args, Command, FromArgMatches};
 
     use super::*;
-    use crate::args::{Arguments, Verb};
 
     fn algorithm(flags: &str) -> Result<Algorithm, Usage> {
-        let words = format!("meshweft optimize a.obj --dry-run {flags}");
-        let arguments = Arguments::parse_from(words.split_whitespace());
-        let Verb::Optimize(arguments) = arguments.verb else {
-            panic!("another verb")
-        };
-        Algorithm::of(&arguments)
+        let words = format!("optimize a.obj --dry-run {flags}");
+        let command = Optimize::augment_args(Command::new("optimize"));
+        let matches = command.get_matches_from(words.split_whitespace());
+        Algorithm::of(&Optimize::from_arg_matches(&matches).unwrap())
     }
 
     #[test]

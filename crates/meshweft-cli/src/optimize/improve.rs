@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::algorithm::Algorithm;
-use crate::args::Optimize;
+use super::arguments::Optimize;
 use crate::count::ratio;
 
 /// Most rounds; see [`improve`].

@@ -13,12 +13,11 @@ use meshweft::order::{Effort, Grid, Target};
 use meshweft::{CacheModel, Mesh, cache};
 use serde_json::{Value, json};
 
-use super::{Figure, cells, head, mean, open, print};
-use crate::args::OfPaper;
+use super::arguments::OfPaper;
+use super::figure::{Figure, cells, head, mean, print};
+use super::meshes::{LARGE, open};
 use crate::methods::{METHODS, universal};
 
-/// Meshes above this many faces are left out of the universality table.
-const LARGE: usize = 200_000;
 /// Cache sizes of figures 4 and 8, which the paper drew as curves from 2 to 64.
 const SIZES: [u32; 9] = [4, 6, 8, 10, 12, 16, 24, 32, 64];
 
@@ -72,7 +71,7 @@ impl Found {
 }
 
 /// Prints the figures for the meshes found in the data folder.
-pub(crate) fn run(arguments: &OfPaper) -> Result<()> {
+pub(super) fn run(arguments: &OfPaper) -> Result<()> {
     let mut found = Vec::new();
     for printed in &MESHES {
         if let Some((file, mesh)) = open(&arguments.data, printed.files)? {

@@ -1,84 +1,45 @@
 //! `paper`: a paper's tables beside ours.
 
-pub(crate) mod bogomjakov_gotsman;
-mod figures;
-pub(crate) mod lin_yu;
-
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+mod arguments;
+mod bogomjakov_gotsman;
+mod figure;
+mod lin_yu;
+mod meshes;
 
 use anyhow::Result;
-use indicatif::{ProgressBar, ProgressStyle};
-use meshweft::files::Document;
-use meshweft::{Limits, Mesh};
-use serde_json::{Value, json};
+use clap::{Args, Subcommand};
 
-use crate::args::Report;
-use crate::inspect::columns;
+use arguments::OfPaper;
 
-/// One figure as text and as JSON.
-struct Figure {
-    title: String,
-    rows: Vec<Vec<String>>,
-    json: Value,
+#[derive(Debug, Args)]
+pub(crate) struct Paper {
+    #[command(subcommand)]
+    paper: WhichPaper,
 }
 
-/// A figure's name, its key in JSON, and what makes it.
-type MakeFigure<'a> = (&'a str, &'a str, &'a dyn Fn() -> Figure);
+#[derive(Debug, Subcommand)]
+enum WhichPaper {
+    /// Lin, Yu: An Improved Vertex Caching Scheme for 3D Mesh Rendering (2006)
+    ///
+    /// Figures 3, 6, 7, 8, 9 and 10, on the meshes that are found.
+    ///
+    ///   meshweft paper lin-yu --data folder-with-meshes
+    #[command(verbatim_doc_comment)]
+    LinYu(OfPaper),
+    /// Bogomjakov, Gotsman: Universal Rendering Sequences for Transparent Vertex Caching (2002)
+    ///
+    /// Figures 2, 4 and 8 and tables 1 and 2, and the universality table of Lin and Yu's figure 10 with
+    /// every order there is here, on the meshes that are found.
+    ///
+    ///   meshweft paper bogomjakov-gotsman --data folder-with-meshes
+    #[command(verbatim_doc_comment)]
+    BogomjakovGotsman(OfPaper),
+}
 
-/// Makes one figure after the other and prints it; all of them as JSON in the end.
-fn print(report: &Report, doi: &str, figures: &[MakeFigure<'_>]) -> Result<()> {
-    let progress = ProgressBar::new(figures.len() as u64).with_style(ProgressStyle::with_template(
-        "[{elapsed}] {msg} {wide_bar} {pos}/{len}",
-    )?);
-    progress.enable_steady_tick(Duration::from_millis(500));
-    let mut json = serde_json::Map::new();
-    json.insert("schema".into(), json!(1));
-    json.insert("paper".into(), json!(format!("doi:{doi}")));
-    for &(name, key, make) in figures {
-        progress.set_message(name.to_owned());
-        let figure = make();
-        progress.suspend(|| {
-            let rows = columns(&figure.rows);
-            report.text(&format!("{name}. {}\n{rows}\n", figure.title))
-        })?;
-        json.insert(key.into(), figure.json);
-        progress.inc(1);
+/// Prints the figures of a paper for the meshes that are found.
+pub(crate) fn run(arguments: &Paper) -> Result<()> {
+    match &arguments.paper {
+        WhichPaper::LinYu(arguments) => lin_yu::run(arguments),
+        WhichPaper::BogomjakovGotsman(arguments) => bogomjakov_gotsman::run(arguments),
     }
-    progress.finish_and_clear();
-    Ok(report.json(&Value::Object(json))?)
-}
-
-/// The largest mesh of the first file with one of these names, there or in a folder `meshes`.
-fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mesh)>> {
-    let folders = [folder.to_owned(), folder.join("meshes")];
-    let names = names.iter().flat_map(|name| {
-        let endings = ["off", "ply", "obj", "glb", "gltf"].into_iter();
-        endings.flat_map(move |e| [format!("{name}.{e}"), format!("{name}.{e}.gz")])
-    });
-    let mut paths = names.flat_map(|name| folders.each_ref().map(|f| f.join(&name)));
-    let Some(file) = paths.find(|path| path.is_file()) else {
-        return Ok(None);
-    };
-    let document = Document::open(&file, Limits::default())?;
-    let largest = document.meshes().iter().max_by_key(|e| e.mesh.face_count());
-    Ok(largest.map(|entry| (file, entry.mesh.clone())))
-}
-
-fn cells(name: impl Into<String>, numbers: impl IntoIterator<Item = f64>) -> Vec<String> {
-    let numbers = numbers.into_iter().map(|x| format!("{x:.3}"));
-    [name.into()].into_iter().chain(numbers).collect()
-}
-
-fn head(names: &[&str]) -> Vec<String> {
-    names.iter().map(|&name| name.to_owned()).collect()
-}
-
-fn mean(numbers: impl IntoIterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0);
-    for x in numbers {
-        sum += x;
-        count += 1;
-    }
-    crate::count::ratio(sum, count)
 }

@@ -352,6 +352,27 @@ fn papers_without_their_meshes_say_what_they_look_for() {
 }
 
 #[test]
+fn every_report_begins_with_schema_and_command() {
+    let folder = Folder::new("reports");
+    for name in ["eight.obj", "face.obj"] {
+        folder.write(name, grid_obj());
+    }
+    for flags in [
+        &["optimize", "eight.obj", "--dry-run"][..],
+        &["optimize", "missing.obj", "--dry-run"],
+        &["inspect", "eight.obj"],
+        &["compare", "eight.obj", "face.obj"],
+        &["demo", "--faces", "500"],
+        &["paper", "lin-yu", "--data", "."],
+        &["paper", "bogomjakov-gotsman", "--data", "."],
+    ] {
+        let run = folder.run(&[flags, &["--json"]].concat());
+        let begin = format!(r#"{{"schema":1,"command":"{}","#, flags[0]);
+        assert!(run.out().starts_with(&begin), "{flags:?}: {}", run.out());
+    }
+}
+
+#[test]
 fn exit_codes_tell_files_from_usage() {
     let folder = Folder::new("exit");
     folder.write("grid.obj", grid_obj());

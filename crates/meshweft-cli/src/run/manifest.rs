@@ -9,6 +9,8 @@ use std::sync::Mutex;
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
+use super::output::SCHEMA;
+
 /// A file of JSON lines, one for each finished input.
 pub(super) struct Manifest {
     path: PathBuf,
@@ -68,7 +70,7 @@ impl Manifest {
         result: &Result<Value, String>,
     ) -> Result<()> {
         let mut line = json!({
-            "schema": 1,
+            "schema": SCHEMA,
             "file": input.display().to_string(),
             "output": output.display().to_string(),
         });

@@ -3,22 +3,37 @@
 use std::io::{self, Write};
 
 use anyhow::Error;
+use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use meshweft::files::{Document, Note, Place};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use crate::args::Report;
+/// The version of what is printed and listed as JSON.
+pub(super) const SCHEMA: u32 = 1;
+
+// No doc comment: clap would take it for the text about a verb.
+#[derive(Debug, Args)]
+#[command(next_display_order = 120)]
+pub(crate) struct Report {
+    /// Print the report as JSON on standard output, all text on standard error
+    #[arg(long)]
+    json: bool,
+    /// Print errors only
+    #[arg(short, long)]
+    quiet: bool,
+}
 
 impl Report {
-    /// Prints a JSON document on a line of standard output, if JSON was asked for.
-    pub(crate) fn json(&self, value: &Value) -> io::Result<()> {
+    /// Prints the report of a verb, an object with these members, on a line of standard output, if
+    /// JSON was asked for.
+    pub(crate) fn json(&self, verb: &str, members: &Value) -> io::Result<()> {
         match self.json {
-            true => writeln!(io::stdout().lock(), "{value}"),
+            true => writeln!(io::stdout().lock(), "{}", headed(verb, members)),
             false => Ok(()),
         }
     }
 
-    /// Prints text for people: on standard output, or on standard error beside JSON.
+    /// Prints text for people: on standard output, or on standard error if JSON goes there.
     pub(crate) fn text(&self, text: &str) -> io::Result<()> {
         match (self.quiet, self.json) {
             (true, _) => Ok(()),
@@ -37,6 +52,15 @@ impl Report {
             .iter()
             .try_for_each(|line| writeln!(stderr, "note: {line}"))
     }
+}
+
+/// The members of a report after those that every report begins with.
+fn headed(verb: &str, members: &Value) -> Value {
+    let mut report = Map::new();
+    report.insert("schema".into(), json!(SCHEMA));
+    report.insert("command".into(), json!(verb));
+    report.extend(members.as_object().cloned().unwrap_or_default());
+    Value::Object(report)
 }
 
 /// What a file's reader leaves as it is, a line each.

@@ -6,7 +6,7 @@ use std::{fs, io};
 use anyhow::{Context, Result};
 use meshweft::files::Format;
 
-use crate::args::Usage;
+use crate::usage::Usage;
 
 /// A file to work on.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,0 +1,39 @@
+//! The caches that misses are counted for.
+
+use clap::Args;
+use meshweft::CacheModel;
+
+/// Counted for unless others are asked for.
+pub(crate) const USUAL: [CacheModel; 6] = [
+    CacheModel::fifo(12),
+    CacheModel::fifo(16),
+    CacheModel::fifo(32),
+    CacheModel::NVIDIA,
+    CacheModel::AMD,
+    CacheModel::INTEL,
+];
+
+#[derive(Debug, Args)]
+pub(crate) struct Caches {
+    /// A cache to count for, again for more: fifo:K, lru:K, controllable:K, nvidia, amd, intel
+    /// [default: fifo:12 fifo:16 fifo:32 nvidia amd intel]
+    #[arg(long = "cache", value_name = "MODEL")]
+    models: Vec<CacheModel>,
+}
+
+impl Caches {
+    /// The models asked for, each once, or the usual six.
+    pub(crate) fn models(&self) -> Vec<CacheModel> {
+        let asked = match self.models.is_empty() {
+            true => &USUAL[..],
+            false => &self.models[..],
+        };
+        let mut models = Vec::new();
+        for &model in asked {
+            if !models.contains(&model) {
+                models.push(model);
+            }
+        }
+        models
+    }
+}

@@ -1,0 +1,49 @@
+//! Figures 3, 6, 7, 8, 9 and 10 of Lin and Yu 2006, beside ours.
+
+mod by_mesh;
+mod found;
+mod means;
+mod printed;
+
+use anyhow::{Result, bail};
+
+use super::arguments::OfPaper;
+use super::figure::print;
+use super::meshes::LARGE;
+use by_mesh::{fig_3, fig_6, fig_9};
+use found::Found;
+use means::{fig_7, fig_8, fig_10};
+use printed::FIG_3;
+
+/// Prints the figures for the meshes found in the data folder.
+pub(in crate::paper) fn run(arguments: &OfPaper) -> Result<()> {
+    let mut found = Vec::new();
+    for printed in &FIG_3 {
+        if let Some(mesh) = Found::open(printed, &arguments.data)? {
+            found.push(mesh);
+        }
+    }
+    if arguments.skip_large {
+        found.retain(|mesh| mesh.mesh.face_count() <= LARGE);
+    }
+    if found.is_empty() {
+        bail!(
+            "{}: none of the paper's meshes is here. Files are looked for by name, such as \
+             fandisk.off, bunny.ply or horse.obj, also with .gz, and in a folder `meshes`",
+            arguments.data.display()
+        );
+    }
+
+    print(
+        &arguments.report,
+        "10.1109/TVCG.2006.59",
+        &[
+            ("Fig. 3", "figure_3", &|| fig_3(&found)),
+            ("Fig. 6", "figure_6", &|| fig_6(&found)),
+            ("Fig. 7", "figure_7", &|| fig_7(&found)),
+            ("Fig. 8", "figure_8", &|| fig_8(&found)),
+            ("Fig. 9", "figure_9", &|| fig_9(&found)),
+            ("Fig. 10", "figure_10", &|| fig_10(&found)),
+        ],
+    )
+}

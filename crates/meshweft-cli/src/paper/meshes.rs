@@ -1,0 +1,27 @@
+//! The papers' meshes among one's own files.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use meshweft::files::Document;
+use meshweft::{Limits, Mesh};
+
+/// Meshes above this many faces are large: they are left out where each takes many runs.
+pub(super) const LARGE: usize = 200_000;
+
+/// The largest mesh of the first file with one of these names, there or in a folder `meshes`.
+pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mesh)>> {
+    let folders = [folder.to_owned(), folder.join("meshes")];
+    let names = names.iter().flat_map(|name| {
+        let endings = ["off", "ply", "obj", "glb", "gltf"].into_iter();
+        endings.flat_map(move |e| [format!("{name}.{e}"), format!("{name}.{e}.gz")])
+    });
+    let mut paths = names.flat_map(|name| folders.each_ref().map(|f| f.join(&name)));
+    let Some(file) = paths.find(|path| path.is_file()) else {
+        return Ok(None);
+    };
+
+    let document = Document::open(&file, Limits::default())?;
+    let largest = document.meshes().iter().max_by_key(|e| e.mesh.face_count());
+    Ok(largest.map(|entry| (file, entry.mesh.clone())))
+}

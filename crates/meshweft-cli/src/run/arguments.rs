@@ -1,0 +1,83 @@
+//! The flags that verbs share: how files are read, and how a run over many files goes.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::Args;
+use meshweft::files::ReadOptions;
+
+use super::inputs::Shard;
+
+// No doc comments on groups of flags: clap would take them for the text about a verb.
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    /// Where to write: a file, or a folder that repeats the folders of the inputs
+    #[arg(short, long, value_name = "OUT", conflicts_with = "in_place")]
+    pub(crate) output: Option<PathBuf>,
+    /// Replace the input once the new file is whole
+    #[arg(long)]
+    pub(crate) in_place: bool,
+    /// Do everything but write
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+    // The flags above are listed before a verb's own, those below after them.
+    /// Go on with the next file when one fails
+    #[arg(long, display_order = 100)]
+    pub(crate) keep_going: bool,
+    /// Files to work on at once [default: as many as there are cores]
+    #[arg(long, value_name = "N", display_order = 101)]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// Threads for the meshes of one file, large ones in parts; the output is the same for any
+    /// number [default: the cores that the jobs leave]
+    #[arg(long, value_name = "N", display_order = 102)]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// List what is done as JSON lines; a run with the same list goes on where it was cut off
+    ///
+    /// What the list has as done, and whose output is there, is not done again. Remove the list to
+    /// start anew.
+    #[arg(long, value_name = "FILE", display_order = 103)]
+    pub(crate) manifest: Option<PathBuf>,
+    /// Do every N-th file only, from the I-th on: 1/4, 2/4, 3/4 and 4/4 together do all
+    #[arg(long, value_name = "I/N", display_order = 104)]
+    pub(crate) shard: Option<Shard>,
+}
+
+impl Run {
+    /// Whether a file is written: one that stays in place only if something in it changed.
+    pub(crate) fn writes(&self, is_changed: bool) -> bool {
+        !self.dry_run && (is_changed || !self.in_place)
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(next_display_order = 110)]
+pub(crate) struct Reading {
+    /// Refuse files with something that is not known and may depend on the order
+    ///
+    /// A glTF extension on a primitive, accessor or buffer view, a PLY element, an OBJ statement.
+    /// Without this flag, what they may depend on stays where it is, and a note says so.
+    #[arg(long)]
+    strict: bool,
+    /// An extension, element or statement that does not depend on the order; may be repeated
+    #[arg(long, value_name = "NAME")]
+    assume_order_safe: Vec<String>,
+    /// Let faces of an OBJ cross g and o lines: groups may lose and gain faces
+    ///
+    /// Materials and smoothing groups are never crossed.
+    #[arg(long)]
+    across_groups: bool,
+}
+
+impl Reading {
+    /// The same for the library; `keep_buffers` are read by other files, too.
+    pub(crate) fn options(&self, keep_buffers: &[PathBuf]) -> ReadOptions {
+        let mut options = ReadOptions::default();
+        options.strict = self.strict;
+        options
+            .assume_order_safe
+            .clone_from(&self.assume_order_safe);
+        options.across_groups = self.across_groups;
+        options.keep_buffers = keep_buffers.to_vec();
+        options
+    }
+}

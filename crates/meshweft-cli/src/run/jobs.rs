@@ -1,0 +1,137 @@
+//! Which files a run works on, and where each result goes.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use meshweft::Limits;
+use meshweft::files::{Format, external_buffers};
+
+use super::arguments::Run;
+use super::inputs;
+use crate::usage::Usage;
+
+/// The work of a run.
+pub(crate) struct Jobs {
+    pub(crate) list: Vec<Job>,
+    /// Whether the command line names one file, rather than a folder, a pattern or several.
+    pub(crate) is_one_file: bool,
+    /// Buffers that a file of the list reads and another file, too.
+    pub(crate) shared_buffers: Vec<PathBuf>,
+}
+
+/// A file, and where its result goes.
+pub(crate) struct Job {
+    pub(crate) input: PathBuf,
+    pub(crate) target: PathBuf,
+}
+
+impl Jobs {
+    /// Every file behind `names`, or the run's share of them, and where it goes.
+    pub(crate) fn new(names: &[PathBuf], run: &Run) -> Result<Self> {
+        let output = run.output.as_deref();
+        if output.is_none() && !run.in_place && !run.dry_run {
+            let text = "where to? Give -o OUT, --in-place, or --dry-run";
+            return Err(Usage(text.into()).into());
+        }
+
+        let inputs = inputs::expand(names, output)?;
+        let is_one_file = inputs.len() == 1 && names[0] == inputs[0].path;
+        // A folder is made, unless the name is taken or looks like that of one mesh.
+        let is_file =
+            |out: &Path| !is_folder(out) && (out.exists() || Format::of_path(out).is_some());
+        if !is_one_file && output.is_some_and(is_file) {
+            return Err(Usage("several files go into a folder: give -o FOLDER/".into()).into());
+        }
+
+        let mut list = Vec::new();
+        let mut input_of: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
+        for input in inputs {
+            let target = match output {
+                None => input.path.clone(),
+                Some(output) if !is_one_file || is_folder(output) => output.join(&input.relative),
+                Some(output) => output.to_owned(),
+            };
+            let job = Job {
+                input: input.path,
+                target,
+            };
+            if output.is_some() {
+                job.check_that_input_stays()?;
+            }
+            if let Some(other) = input_of.insert(job.target.clone(), job.input.clone()) {
+                return Err(job.collision_with(&other).into());
+            }
+            list.push(job);
+        }
+
+        // The share is taken last: all shares of a run are checked as a whole.
+        if let Some(shard) = run.shard {
+            list = shard.of(list);
+        }
+        Ok(Self {
+            shared_buffers: shared_buffers(&list),
+            list,
+            is_one_file,
+        })
+    }
+}
+
+impl Job {
+    /// An input is replaced only by those who say so.
+    fn check_that_input_stays(&self) -> Result<(), Usage> {
+        let same =
+            |a: &Path, b: &Path| Some(fs::canonicalize(a).ok()? == fs::canonicalize(b).ok()?);
+        match same(&self.target, &self.input) {
+            Some(true) => Err(Usage(format!(
+                "{} is the input itself: use --in-place to replace it",
+                self.target.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    fn collision_with(&self, other: &Path) -> Usage {
+        Usage(format!(
+            "{} and {} would both be written to {}: do them one at a time",
+            other.display(),
+            self.input.display(),
+            self.target.display()
+        ))
+    }
+}
+
+fn is_folder(out: &Path) -> bool {
+    out.is_dir() || out.as_os_str().as_encoded_bytes().ends_with(b"/")
+}
+
+/// Buffers that two glTF files of one folder read: moved for one, they would be wrong for the
+/// other.
+fn shared_buffers(jobs: &[Job]) -> Vec<PathBuf> {
+    let is_gltf = |path: &Path| matches!(Format::of_path(path), Some(Format::Gltf | Format::Glb));
+    let inputs = jobs.iter().filter(|job| is_gltf(&job.input));
+    let folders: BTreeSet<&Path> = inputs.filter_map(|job| job.input.parent()).collect();
+
+    let mut shared = Vec::new();
+    for folder in folders {
+        let here = match folder.as_os_str().is_empty() {
+            true => Path::new("."),
+            false => folder,
+        };
+        let entries = fs::read_dir(here).into_iter().flatten().flatten();
+        // Paths as the inputs spell them.
+        let paths = entries.map(|entry| folder.join(entry.file_name()));
+        let mut seen = BTreeSet::new();
+        for path in paths.filter(|path| is_gltf(path)) {
+            // A file that cannot be read reads no buffer either.
+            let buffers = external_buffers(&path, &Limits::default()).unwrap_or_default();
+            for buffer in buffers.into_iter().collect::<BTreeSet<_>>() {
+                if !seen.insert(buffer.clone()) {
+                    shared.push(buffer);
+                }
+            }
+        }
+    }
+    shared
+}

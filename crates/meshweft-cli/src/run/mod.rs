@@ -1,0 +1,120 @@
+//! A run over many files: what the verbs that write files have in common.
+//!
+//! Such a verb has the flags [`Run`] and [`Reading`](arguments::Reading), finds its files with
+//! [`Jobs::new`](jobs::Jobs::new), hands the work on one of them to [`over_files`], and writes with
+//! [`write`](write::write).
+
+pub(crate) mod arguments;
+mod batch;
+pub(crate) mod inputs;
+mod interrupt;
+pub(crate) mod jobs;
+mod manifest;
+pub(crate) mod output;
+mod workers;
+pub(crate) mod write;
+
+use std::collections::BTreeSet;
+
+use anyhow::{Error, Result};
+use meshweft::files::remove_abandoned;
+use serde_json::{Value, json};
+
+use crate::usage;
+use arguments::Run;
+use jobs::Job;
+use manifest::Manifest;
+use output::Report;
+use workers::Workers;
+
+/// What there is to say about a file.
+pub(crate) struct Outcome {
+    /// The members of its report; `total` is what the manifest keeps.
+    pub(crate) json: Value,
+    pub(crate) text: String,
+    pub(crate) notes: Vec<String>,
+}
+
+/// Does `work` on the file of each job, in threads of the file's own, and reports on it as the
+/// doing of `verb`.
+///
+/// The first failure is returned.
+pub(crate) fn over_files(
+    verb: &str,
+    jobs: &[Job],
+    run: &Run,
+    report: &Report,
+    work: impl Fn(&Job) -> Result<Outcome> + Sync,
+) -> Result<()> {
+    let manifest = run.manifest.as_deref().map(Manifest::open).transpose()?;
+    let workers = Workers::new(run, jobs.len());
+    if !run.dry_run {
+        prepare_to_write(jobs);
+    }
+
+    let one = |index: usize| {
+        let job = &jobs[index];
+        let earlier = manifest.as_ref();
+        if earlier.is_some_and(|manifest| manifest.has(&job.input, &job.target)) {
+            return Ok(done_before(job));
+        }
+        let done = workers.threads()?.install(|| work(job));
+        if let (Some(manifest), false) = (&manifest, run.dry_run) {
+            list(manifest, job, &done)?;
+        }
+        done
+    };
+
+    let bar = output::progress(jobs.len(), report);
+    let mut is_first_failure = true;
+    let tell = |index: usize, result: Result<&Outcome, &Error>| {
+        bar.inc(1);
+        bar.suspend(|| match result {
+            Ok(outcome) => {
+                report.json(verb, &outcome.json)?;
+                report.text(&outcome.text)?;
+                Ok(report.notes(&outcome.notes)?)
+            }
+            Err(error) => {
+                let file = jobs[index].input.display().to_string();
+                let text = usage::message(error);
+                report.json(verb, &json!({"file": file, "error": text}))?;
+                // The first is reported as the error of the whole run.
+                if !std::mem::take(&mut is_first_failure) {
+                    eprintln!("error: {text}");
+                }
+                Ok(())
+            }
+        })
+    };
+
+    let done = batch::run(jobs.len(), workers.jobs, run.keep_going, one, tell);
+    bar.finish_and_clear();
+    done
+}
+
+/// Lets no signal cut a file short, and removes what runs that were killed left behind.
+fn prepare_to_write(jobs: &[Job]) {
+    interrupt::watch();
+    let folders: BTreeSet<_> = jobs.iter().filter_map(|job| job.target.parent()).collect();
+    for folder in folders {
+        remove_abandoned(folder);
+    }
+}
+
+/// What there is to say about a file that an earlier run did.
+fn done_before(job: &Job) -> Outcome {
+    let [file, output] = [&job.input, &job.target].map(|path| path.display().to_string());
+    Outcome {
+        text: format!("{file}\n  done before: {output}"),
+        json: json!({"file": file, "output": output, "done_before": true}),
+        notes: Vec::new(),
+    }
+}
+
+/// Adds a finished job to the manifest.
+fn list(manifest: &Manifest, job: &Job, done: &Result<Outcome>) -> Result<()> {
+    let _whole = interrupt::hold_off();
+    let total = done.as_ref().map(|outcome| outcome.json["total"].clone());
+    manifest.add(&job.input, &job.target, &total.map_err(usage::message))
+}

@@ -1,0 +1,25 @@
+//! Errors as the program tells them.
+
+use std::fmt;
+
+use anyhow::Error;
+
+/// What the command line asks for cannot be done; exit code 2.
+#[derive(Debug)]
+pub(crate) struct Usage(pub(crate) String);
+
+impl fmt::Display for Usage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Usage {}
+
+/// The text of an error, in each report and on standard error.
+///
+/// Made in one place, because the library does not know the program's flags: where a flag helps,
+/// it is to be named here.
+pub(crate) fn message(error: &Error) -> String {
+    format!("{error:#}")
+}
