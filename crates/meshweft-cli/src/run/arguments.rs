@@ -8,6 +8,9 @@ use meshweft::files::ReadOptions;
 
 use super::inputs::Shard;
 
+/// Most threads or jobs: above the cores of most machines, well below what a system cannot start.
+const MOST_THREADS: usize = 1024;
+
 // No doc comments on groups of flags: clap would take them for the text about a verb.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
@@ -25,11 +28,11 @@ pub(crate) struct Run {
     #[arg(long, display_order = 100)]
     pub(crate) keep_going: bool,
     /// Files to work on at once [default: as many as there are cores]
-    #[arg(long, value_name = "N", display_order = 101)]
+    #[arg(long, value_name = "N", display_order = 101, value_parser = thread_count)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Threads for the meshes of one file, large ones in parts; the output is the same for any
     /// number [default: the cores that the jobs leave]
-    #[arg(long, value_name = "N", display_order = 102)]
+    #[arg(long, value_name = "N", display_order = 102, value_parser = thread_count)]
     pub(crate) threads: Option<NonZeroUsize>,
     /// List what is done as JSON lines; a run with the same list goes on where it was cut off
     ///
@@ -79,5 +82,14 @@ impl Reading {
         options.across_groups = self.across_groups;
         options.keep_buffers = keep_buffers.to_vec();
         options
+    }
+}
+
+/// A number of threads or jobs that a system can start.
+fn thread_count(text: &str) -> Result<NonZeroUsize, String> {
+    let count: NonZeroUsize = text.parse().map_err(|error| format!("{error}"))?;
+    match count.get() <= MOST_THREADS {
+        true => Ok(count),
+        false => Err(format!("at most {MOST_THREADS} are allowed")),
     }
 }

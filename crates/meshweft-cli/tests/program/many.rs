@@ -150,6 +150,24 @@ fn the_output_is_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+fn more_threads_than_a_system_starts_are_refused() {
+    let folder = tree("many-too-many");
+    for flag in ["--threads", "--jobs"] {
+        for count in ["1025", "100000", "99999999999999999999"] {
+            let run = folder.run(&["optimize", "in", "-o", "out", flag, count]);
+            assert_eq!(run.code(), 2, "{}", run.err());
+            assert!(run.err().contains(count), "{}", run.err());
+            assert!(!folder.0.join("out").exists());
+        }
+        let run = folder.run(&["optimize", "in", "-o", "out", flag, "1025"]);
+        let says = format!("invalid value '1025' for '{flag} <N>': at most 1024 are allowed");
+        assert!(run.err().contains(&says), "{}", run.err());
+        let run = folder.run(&["optimize", "in/1.obj", "-o", "most.obj", flag, "1024"]);
+        assert_eq!(run.code(), 0, "{}", run.err());
+    }
+}
+
+#[test]
 fn a_failure_stops_or_is_passed_over() {
     let folder = tree("many-failure");
     folder.write("in/a/0.off", "OFF\n");
