@@ -28,8 +28,8 @@ enum WhichPaper {
     LinYu(OfPaper),
     /// Bogomjakov, Gotsman: Universal Rendering Sequences for Transparent Vertex Caching (2002)
     ///
-    /// Figures 2, 4 and 8 and tables 1 and 2, and the universality table of Lin and Yu's figure 10 with
-    /// every order there is here, on the meshes that are found.
+    /// Figures 4a and 8 and tables 1 and 2, and the universality table of Lin and Yu's figure 10 with
+    /// every order that is available, on the meshes that are found.
     ///
     ///   meshweft paper bogomjakov-gotsman --data folder-with-meshes
     #[command(verbatim_doc_comment)]
