@@ -15,7 +15,7 @@ pub(crate) const USUAL: [CacheModel; 6] = [
 
 #[derive(Debug, Args)]
 pub(crate) struct Caches {
-    /// A cache to count for, again for more: fifo:K, lru:K, controllable:K, nvidia, amd, intel
+    /// A cache to count for, may be repeated: fifo:K, lru:K, controllable:K, nvidia, amd, intel
     /// [default: fifo:12 fifo:16 fifo:32 nvidia amd intel]
     #[arg(long = "cache", value_name = "MODEL")]
     models: Vec<CacheModel>,

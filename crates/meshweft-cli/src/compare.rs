@@ -122,7 +122,7 @@ fn triangles(entries: &[MeshEntry], by_position: bool) -> Vec<[[u32; 3]; 3]> {
     triangles
 }
 
-/// How many entries each of two sorted lists has that the other has not.
+/// How many entries each of two sorted lists has that the other lacks.
 fn differences<T: Ord>(a: &[T], b: &[T]) -> [usize; 2] {
     let (mut i, mut j, mut common) = (0, 0, 0);
     while i < a.len() && j < b.len() {

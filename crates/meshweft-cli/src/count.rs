@@ -48,6 +48,7 @@ impl Counts {
             misses: models.iter().map(|&model| (model, 0)).collect(),
             ..Self::default()
         };
+
         let mut groups: BTreeMap<usize, Vec<bool>> = BTreeMap::new();
         let mut fetched = 0.0;
         for (entry, count) in entries.iter().zip(counts) {
@@ -55,16 +56,19 @@ impl Counts {
                 total.vertices += count.vertices;
                 vec![false; count.vertices]
             });
+
             for &vertex in entry.mesh.faces().iter().flatten() {
                 let used = &mut group[vertex as usize];
                 total.used_vertices += usize::from(!std::mem::replace(used, true));
             }
+
             total.faces += count.faces;
             for (sum, (_, misses)) in total.misses.iter_mut().zip(&count.misses) {
                 sum.1 += misses;
             }
             fetched += count.overfetch * count.used_vertices as f64;
         }
+
         total.overfetch = ratio(fetched, total.used_vertices);
         total
     }

@@ -26,7 +26,7 @@ pub(crate) struct Inspect {
     /// Draw misses per face over the size of a FIFO cache: one curve a file
     #[arg(long, value_name = "OUT.svg")]
     plot: Option<PathBuf>,
-    /// Draw beside each file's curve those of its orders by every method here
+    /// Also draw a curve for each file as ordered by every method
     #[arg(long, requires = "plot")]
     methods: bool,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! Every order there is to show beside the others.
+//! The methods that are shown side by side.
 
 use meshweft::order::baselines::{random, tipsify};
 use meshweft::order::bogomjakov_gotsman::{LinearArrangement, RecursiveCut};

@@ -10,7 +10,7 @@ use crate::count::ratio;
 const SIZES: [u32; 22] = [
     3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 80, 96, 128,
 ];
-/// Of Okabe and Ito: told apart by colour-blind readers, too.
+/// The colours of Okabe and Ito, which colour-blind readers can tell apart too.
 const COLORS: [&str; 8] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999",
 ];
@@ -47,17 +47,20 @@ impl Curve {
     }
 }
 
-/// The curves in one picture; the greatest figure at the top is 3 at most.
+/// The curves in one picture. No figure is above 3, the misses of a face without any hit.
 pub(crate) fn svg(title: &str, curves: &[Curve]) -> String {
     let greatest = curves.iter().flat_map(|curve| &curve.acmr).copied();
     let greatest = greatest.fold(1.0, f64::max);
     let top = (greatest * 5.0).ceil() / 5.0;
+
+    // Scales: sizes by their logarithm.
     let (least, most) = (
         f64::from(SIZES[0]).ln(),
         f64::from(SIZES[SIZES.len() - 1]).ln(),
     );
     let x = |size: u32| LEFT + (f64::from(size).ln() - least) / (most - least) * PLOT_WIDTH;
     let y = |acmr: f64| TOP + (1.0 - (acmr - BOTTOM) / (top - BOTTOM)) * PLOT_HEIGHT;
+
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
          font-family=\"sans-serif\" font-size=\"12\">\n\
@@ -69,7 +72,10 @@ pub(crate) fn svg(title: &str, curves: &[Curve]) -> String {
         svg += &text;
         svg.push('\n');
     };
+
     let (right, foot) = (LEFT + PLOT_WIDTH, TOP + PLOT_HEIGHT);
+
+    // Horizontal lines of the grid: every 0.1, or every 0.5 where those are too many.
     let steps = ((top - BOTTOM) * 10.0).round();
     let every = if steps > 15.0 { 5.0 } else { 1.0 };
     let mut step = 0.0;
@@ -84,6 +90,8 @@ pub(crate) fn svg(title: &str, curves: &[Curve]) -> String {
         ));
         step += every;
     }
+
+    // Vertical lines of the grid.
     for size in [3, 4, 6, 8, 10, 12, 16, 24, 32, 48, 64, 96, 128] {
         let x = x(size);
         line(format!(
@@ -92,6 +100,8 @@ pub(crate) fn svg(title: &str, curves: &[Curve]) -> String {
             foot + 16.0
         ));
     }
+
+    // Names of the axes.
     line(format!(
         "<text x=\"{:.0}\" y=\"{:.0}\" text-anchor=\"middle\">FIFO cache size in vertices</text>\n\
          <text transform=\"translate(16 {:.0}) rotate(-90)\" text-anchor=\"middle\">misses per face \
@@ -100,9 +110,11 @@ pub(crate) fn svg(title: &str, curves: &[Curve]) -> String {
         foot + 36.0,
         TOP + PLOT_HEIGHT / 2.0
     ));
+
+    // Curves and their legend.
     for (i, curve) in curves.iter().enumerate() {
         let color = COLORS[i % COLORS.len()];
-        // Colours come again with dashes.
+        // When the colours run out, they are used again with dashes.
         let dashes = match i / COLORS.len() {
             0 => String::new(),
             n => format!(" stroke-dasharray=\"{}\"", 3 * n),
@@ -111,6 +123,7 @@ pub(crate) fn svg(title: &str, curves: &[Curve]) -> String {
         for (&size, &acmr) in SIZES.iter().zip(&curve.acmr) {
             write!(points, " {:.1},{:.1}", x(size), y(acmr)).expect("a string takes all");
         }
+
         let row = TOP + 14.0 + 18.0 * i as f64;
         line(format!(
             "<polyline fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"{dashes} points=\"{}\"/>\n\

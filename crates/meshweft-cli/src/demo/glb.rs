@@ -13,6 +13,8 @@ pub(super) fn glb(mesh: &Mesh, name: &str) -> Vec<u8> {
         [fold(0), fold(1), fold(2)]
     };
     let (min, max) = (bound(f32::min, f32::MAX), bound(f32::max, f32::MIN));
+
+    // The buffer: positions, normals, indices.
     let mut binary: Vec<u8> = Vec::new();
     for value in positions.iter().chain(&vertex_normals(mesh)).flatten() {
         binary.extend(value.to_le_bytes());
@@ -20,6 +22,8 @@ pub(super) fn glb(mesh: &Mesh, name: &str) -> Vec<u8> {
     for index in mesh.faces().iter().flatten() {
         binary.extend(index.to_le_bytes());
     }
+
+    // What says where they are.
     let (vertices, indices) = (positions.len(), mesh.face_count() * 3);
     let view = |start: usize, length: usize, target: u32| json!({"buffer": 0, "byteOffset": start, "byteLength": length, "target": target});
     let json = json!({
@@ -43,6 +47,8 @@ pub(super) fn glb(mesh: &Mesh, name: &str) -> Vec<u8> {
             {"bufferView": 2, "componentType": 5125, "count": indices, "type": "SCALAR"},
         ],
     });
+
+    // Both as chunks, filled up to whole words.
     let mut json = json.to_string().into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
     binary.resize(binary.len().next_multiple_of(4), 0);

@@ -11,10 +11,12 @@ pub(super) fn knot(face_count: u32) -> Mesh {
     // Twice as many faces as vertices; the tube is about 22 times as long as it is round.
     let around = (face_count / 44).isqrt().max(5);
     let along = (face_count / (2 * around)).max(8);
+
     let chance = random((around * along) as usize, 1);
     let chance = |x: u32, y: u32, sides: u32| {
         chance.new_to_old()[((y % along) * around + x % around) as usize] % sides
     };
+
     let mut positions = Vec::new();
     for y in 0..along {
         for x in 0..around {
@@ -24,6 +26,7 @@ pub(super) fn knot(face_count: u32) -> Mesh {
             positions.push(on_knot(t, s));
         }
     }
+
     let vertex = |x: u32, y: u32| (y % along) * around + x % around;
     let mut faces = Vec::new();
     for y in 0..along {
@@ -57,8 +60,10 @@ fn on_knot(t: f32, s: f32) -> [f32; 3] {
 /// An isosurface of three rounded tubes and a ball, by marching tetrahedra: slivers and valences
 /// from 3 to 20, as scanners and simulations make them.
 pub(super) fn isosurface(face_count: u32) -> Mesh {
-    // Of the grid's `n³` cells the surface crosses so many that about `11 n²` faces come out.
+    // The surface crosses enough of the grid's `n³` cells to give about `11 n²` faces.
     let n = (face_count / 11).isqrt().max(6);
+
+    // The field, whose zeros are the surface.
     let point = |[x, y, z]: [u32; 3]| [x, y, z].map(|i| (i as f32 / n as f32 - 0.5) * 4.2);
     let value = |corner: [u32; 3]| {
         let [x, y, z] = point(corner);
@@ -67,6 +72,8 @@ pub(super) fn isosurface(face_count: u32) -> Mesh {
         let fall = (1.0 - (x * x + y * y + z * z) / 4.2).max(-1.0);
         (tube(x, y) + tube(y, z) + tube(z, x) + ball) * fall - 5.0
     };
+
+    // A vertex where the surface crosses an edge, one for all cells around it.
     let mut vertices: HashMap<[[u32; 3]; 2], u32> = HashMap::new();
     let mut positions: Vec<[f32; 3]> = Vec::new();
     let mut faces = Vec::new();
@@ -80,6 +87,7 @@ pub(super) fn isosurface(face_count: u32) -> Mesh {
             u32::try_from(positions.len() - 1).expect("limited by the face count")
         })
     };
+
     for x in 0..n {
         for y in 0..n {
             for z in 0..n {
@@ -122,7 +130,9 @@ fn tetrahedron(
     for (i, inside) in inside.into_iter().enumerate() {
         if inside { ins.push(i) } else { outs.push(i) }
     }
+
     let mut cut = |a: usize, b: usize| crossing(corners[a], corners[b]);
+
     // Swapping two corners mirrors the tetrahedron: an odd number of inversions flips the faces.
     let order: Vec<usize> = ins.iter().chain(&outs).copied().collect();
     let pairs = (0..4).flat_map(|i| (i + 1..4).map(move |j| (i, j)));
@@ -133,6 +143,7 @@ fn tetrahedron(
             faces.push(if flip { [a, c, b] } else { [a, b, c] });
         }
     };
+
     match (&ins[..], &outs[..]) {
         (&[i], &[a, b, c]) => add([cut(i, a), cut(i, b), cut(i, c)]),
         (&[a, b, c], &[o]) => add([cut(a, o), cut(b, o), cut(c, o)]),

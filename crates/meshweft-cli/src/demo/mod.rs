@@ -171,6 +171,7 @@ fn text(title: &str, mesh: &Mesh, rows: &[Row]) -> String {
         "ms",
     ];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
+
     for row in rows {
         let ratios = row.acmr.iter().chain(&row.atvr).map(|x| format!("{x:.3}"));
         let time = match row.method {
@@ -180,6 +181,7 @@ fn text(title: &str, mesh: &Mesh, rows: &[Row]) -> String {
         let name = std::iter::once(row.method.to_owned());
         lines.push(name.chain(ratios).chain([time]).collect());
     }
+
     format!(
         "{title}: {} faces, {} vertices\n{}\n",
         mesh.face_count(),

@@ -9,7 +9,7 @@ use super::meshes::{dot, normalized};
 const SIZE: usize = 800;
 /// Samples of a pixel in each direction.
 const SAMPLES: usize = 3;
-/// Colours of a face by its misses, 0 to 3; apart from each other for colour-blind eyes too.
+/// Colours of a face by its misses, 0 to 3; colour-blind readers can tell them apart too.
 const COLORS: [[f32; 3]; 4] = [
     [0.80, 0.82, 0.85],
     [0.25, 0.56, 0.85],
@@ -64,15 +64,20 @@ fn draw(mesh: &Mesh, model: CacheModel) -> Vec<[f32; 3]> {
     let side = SIZE * SAMPLES;
     let missed = cache::misses_per_face(mesh.faces(), model);
     let normals = vertex_normals(mesh);
+
+    // The camera.
     let right = normalized([0.80, 0.60, 0.0]);
     let up = normalized([-0.30, 0.40, 0.866]);
     let toward = normalized([0.52, -0.69, 0.5]);
     let seen = |p: [f32; 3]| [dot(p, right), dot(p, up), dot(p, toward)];
+
+    // The mesh fills the picture.
     let points: Vec<[f32; 3]> = mesh.positions().iter().map(|&p| seen(p)).collect();
     let reach = points.iter().flat_map(|p| [p[0].abs(), p[1].abs()]);
     let scale = 0.47 * side as f32 / reach.fold(f32::MIN_POSITIVE, f32::max);
     let middle = side as f32 / 2.0;
     let on_screen = |p: [f32; 3]| [middle + p[0] * scale, middle - p[1] * scale, p[2]];
+
     let light = normalized([0.35, -0.45, 0.82]);
     let mut image = vec![BACKGROUND; side * side];
     let mut depth = vec![f32::MIN; side * side];
@@ -100,6 +105,7 @@ fn fill(corners: [[f32; 3]; 3], side: usize, mut visit: impl FnMut(usize, usize,
     if area == 0.0 {
         return;
     }
+
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -110,6 +116,7 @@ fn fill(corners: [[f32; 3]; 3], side: usize, mut visit: impl FnMut(usize, usize,
         let high = a[i].max(b[i]).max(c[i]).ceil().clamp(0.0, side as f32);
         low as usize..high as usize
     };
+
     for y in span(1) {
         for x in span(0) {
             let (px, py) = (x as f32 + 0.5, y as f32 + 0.5);

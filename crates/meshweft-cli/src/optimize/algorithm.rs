@@ -48,6 +48,8 @@ impl Algorithm {
                 greedy: None,
             });
         }
+
+        // The greedy has them, but neither other caches nor efforts.
         let flag = match is_faithful {
             true => "--mode faithful",
             false => "a weight (--k1, --k2, --k3)",
@@ -67,6 +69,7 @@ impl Algorithm {
                 "{flag} is for the greedy: leave out --effort and --time-budget"
             )));
         }
+
         let usual = KCacheReorder::default();
         let [k1, k2, k3] = weights;
         let greedy = KCacheReorder {
@@ -93,7 +96,7 @@ impl Algorithm {
         self.optimizer.target
     }
 
-    /// Whether a second time on its own output can help nothing that is asked for.
+    /// Whether to run exactly once, without the rounds of improvement.
     pub(super) fn runs_once(&self) -> bool {
         let mode = self.greedy.as_ref().map(|greedy| greedy.mode);
         mode == Some(order::Mode::Faithful) || self.time_budget.is_some()
@@ -101,8 +104,8 @@ impl Algorithm {
 
     /// Whether an order with `after` misses for `before` is worth writing.
     ///
-    /// Started again from its own output, an algorithm that does not look at every cache or that
-    /// draws lots goes up and down by a little for ever; what is within that is no gain.
+    /// Run on its own output, a search that is random or does not look at every cache oscillates
+    /// slightly. Changes within that noise are not improvements.
     pub(super) fn is_gain(&self, before: u64, after: u64) -> bool {
         let thousandths = match (self.optimizer.effort, self.optimizer.target) {
             (order::Effort::Fast, Target::Cache(_)) => 0,
@@ -135,6 +138,8 @@ impl Algorithm {
             };
             return (order, 0);
         };
+
+        // Controllable caches: the pushes of the order that was searched for, or of the greedy.
         let is_search = self.optimizer.effort != order::Effort::Fast
             || self.time_budget.is_some()
             || starts.is_some();
@@ -143,6 +148,7 @@ impl Algorithm {
             let pushes = Schedule::fewest_pushes(&order.apply(mesh.faces()), size).pushes();
             return (order, pushes);
         }
+
         let greedy = self.greedy.clone().unwrap_or(KCacheReorder {
             cache: CacheModel::controllable(size),
             keep_corners: self.optimizer.keep_corners,
@@ -221,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn what_goes_up_and_down_is_no_gain() {
+    fn noise_is_not_a_gain() {
         let fast = algorithm("--cache fifo:12").unwrap();
         assert!(fast.is_gain(1000, 999) && !fast.is_gain(1000, 1000));
         let best = algorithm("--effort best").unwrap();

@@ -15,8 +15,8 @@ use crate::run::output::Report;
 pub(crate) struct Optimize {
     /// Files, folders with files, or patterns such as 'assets/**/*.glb'
     ///
-    /// .gltf, .glb, .obj, .ply, .off, .stl, .wrl, .vrml, also with .gz behind. Of a folder every
-    /// such file is taken, and those in folders below.
+    /// .gltf, .glb, .obj, .ply, .off, .stl, .wrl or .vrml, optionally followed by .gz. A folder
+    /// stands for every such file in it and in the folders below it.
     #[arg(required = true, value_name = "IN")]
     pub(super) inputs: Vec<PathBuf>,
     #[command(flatten)]
@@ -30,12 +30,12 @@ pub(crate) struct Optimize {
     /// How much time the order is worth
     #[arg(long, value_enum, default_value_t = Effort::Fast)]
     pub(super) effort: Effort,
-    /// Search for about this long a file, such as 5s, 500ms or 2m, whatever the effort
+    /// Search for about this long per file, such as 5s, 500ms or 2m, whatever the effort
     ///
     /// The result then depends on the machine.
     #[arg(long, value_name = "TIME")]
     pub(super) time_budget: Option<TimeBudget>,
-    /// Where the random numbers of a search start: the same seed gives the same file
+    /// Seed of the search; the same seed gives the same file
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
     /// fast, or faithful to the paper of Lin and Yu; for fifo:K and controllable:K

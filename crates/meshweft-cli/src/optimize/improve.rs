@@ -61,6 +61,7 @@ pub(super) fn improve(
         faces: entries.iter().map(unchanged).collect(),
         vertices: vertex_groups(&entries),
     };
+
     let once = algorithm.runs_once() || arguments.allow_worse;
     let rounds = if once { 1 } else { MAX_ROUNDS };
     let face_count = entries.iter().map(|entry| entry.mesh.face_count()).sum();
@@ -74,6 +75,7 @@ pub(super) fn improve(
             // One after the other: each has its share of the time.
             Some(_) => each.0.iter_mut().zip(each.1).map(work).collect(),
         };
+
         let mut changed = moved.iter().any(|&moved| moved);
         if !arguments.keep_vertex_order {
             changed |= improvement.improve_vertices(&mut entries, &moved);
@@ -123,6 +125,7 @@ impl FaceChange {
         if order.is_identity() {
             return false;
         }
+
         let before = target.misses(entry.mesh.faces());
         let mut ordered = entry.clone();
         ordered.apply_faces(&order);
@@ -133,6 +136,7 @@ impl FaceChange {
             }
             return false;
         }
+
         *entry = ordered;
         self.order = self.order.then(&order);
         self.reason = None;
@@ -166,6 +170,7 @@ impl Improvement {
             if !faces_moved && overfetch(&order.renumber(&now)) >= overfetch(&now) {
                 continue;
             }
+
             for &i in members.iter() {
                 entries[i].apply_vertices(&order);
             }

@@ -8,7 +8,8 @@ use crate::run::output::Report;
 
 #[derive(Debug, Args)]
 pub(super) struct OfPaper {
-    /// A folder with the meshes (fandisk.off, bunny.ply, …, also .gz), or one with a folder `meshes`
+    /// A folder with the meshes (fandisk.off, bunny.ply, …, optionally followed by .gz), or one that
+    /// contains a folder `meshes`
     #[arg(long, value_name = "DIR")]
     pub(super) data: PathBuf,
     /// Leave out meshes of more than 200 thousand faces

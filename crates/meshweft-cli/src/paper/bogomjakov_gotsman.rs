@@ -1,5 +1,5 @@
-//! Figures 2, 4 and 8 and tables 1 and 2 of Bogomjakov and Gotsman 2002, beside ours, and the
-//! universality table of Lin and Yu's figure 10 with every order there is here.
+//! Figures 4a and 8 and tables 1 and 2 of Bogomjakov and Gotsman 2002, beside ours, and the
+//! universality table of Lin and Yu's figure 10 with every order that is available.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -82,6 +82,7 @@ pub(super) fn run(arguments: &OfPaper) -> Result<()> {
             });
         }
     }
+
     let mut others = Vec::new();
     for name in UNIVERSALITY {
         others.extend(open(&arguments.data, &[name])?.map(|(_, mesh)| mesh));
@@ -90,13 +91,15 @@ pub(super) fn run(arguments: &OfPaper) -> Result<()> {
     if arguments.skip_large {
         found.retain(|it| it.mesh.face_count() <= LARGE);
     }
+
     if found.is_empty() || others.is_empty() {
         bail!(
             "{}: none of the paper's meshes is here. Files are looked for by name, such as \
-             bunny.ply, horse.obj or fandisk.off, also with .gz, and in a folder `meshes`",
+             bunny.ply, horse.obj or fandisk.off, optionally followed by .gz, and in a folder `meshes`",
             arguments.data.display()
         );
     }
+
     print(
         &arguments.report,
         "10.1111/1467-8659.00573",
@@ -142,6 +145,7 @@ fn fig_4() -> Figure {
     };
     let mesh = grid_mesh(grid);
     let faces = mesh.faces();
+
     let sequences = [
         ("random", random(faces.len(), 1).apply(faces)),
         ("snake (Fig. 2a)", grid.snake().apply(faces)),
@@ -152,6 +156,7 @@ fn fig_4() -> Figure {
     ];
     let methods = METHODS.iter().filter(|method| method.name.contains("fast"));
     let methods = methods.map(|method| (method.name, (method.order)(&mesh).apply(faces)));
+
     let mut rows = vec![sizes_head("")];
     rows[0].push("cost".to_owned());
     let mut json = Vec::new();
@@ -163,6 +168,7 @@ fn fig_4() -> Figure {
         rows.push(row);
         json.push(json!({"sequence": name, "acmr": acmr, "linear_arrangement_cost": cost}));
     }
+
     Figure {
         title: "The regular grid of 16 by 8 squares of Fig. 2: misses per face over the cache size,\n\
                 and the cost of the linear arrangement. The paper drew curves and printed no numbers."
@@ -186,6 +192,7 @@ fn fig_8(found: &[Found]) -> Figure {
             json.push(json!({"mesh": it.printed.mesh, "sequence": name, "acmr": acmr}));
         }
     }
+
     Figure {
         title:
             "Misses per face over the cache size. The paper drew curves that nearly coincide for \
@@ -212,6 +219,7 @@ fn table_1(found: &[Found]) -> Figure {
         ]);
         json.push(json!({"mesh": name, "paper": paper, "ours": ours}));
     };
+
     let ([vertices, _], seconds) = REGULAR_32;
     let regular = grid_mesh(Grid {
         columns: 32,
@@ -221,6 +229,7 @@ fn table_1(found: &[Found]) -> Figure {
     for it in found {
         push(it.name(), it.printed.size[0], &it.mesh, it.printed.seconds);
     }
+
     Figure {
         title: "Seconds for the recursive cut: the paper's (Pentium III, 550 MHz), ours."
             .to_owned(),
@@ -249,6 +258,7 @@ fn table_2(found: &[Found]) -> Figure {
         let our_cut = fifo(&recursive_cut(&it.mesh), 10);
         let universal = [Effort::Fast, Effort::Best]
             .map(|effort| fifo(&universal(&it.mesh, effort).apply(it.mesh.faces()), 10));
+
         let numbers = [original, in_file, cut, our_cut, strips];
         rows.push(cells(it.name(), numbers.into_iter().chain(universal)));
         json.push(json!({
@@ -259,6 +269,7 @@ fn table_2(found: &[Found]) -> Figure {
                      "universal_fast": universal[0], "universal_best": universal[1]},
         }));
     }
+
     Figure {
         title:
             "Misses per face at a cache of 10: the paper's columns, ours to the right of them.\n\
@@ -286,11 +297,13 @@ fn universality(meshes: &[Mesh]) -> Figure {
                 *sum += figure / meshes.len() as f64;
             }
         }
+
         let (acmr, atvr) = figures.split_at(6);
         let numbers = acmr.iter().copied().chain([mean(acmr.iter().copied())]);
         rows.push(cells(method.name, numbers.chain(atvr.iter().copied())));
         json.push(json!({"method": method.name, "acmr": acmr, "atvr": atvr}));
     }
+
     let models = Target::UNIVERSAL.map(|model| model.to_string());
     Figure {
         title: format!(

@@ -34,10 +34,10 @@ pub(crate) struct Run {
     /// number [default: the cores that the jobs leave]
     #[arg(long, value_name = "N", display_order = 102, value_parser = thread_count)]
     pub(crate) threads: Option<NonZeroUsize>,
-    /// List what is done as JSON lines; a run with the same list goes on where it was cut off
+    /// List what is done as JSON lines; a run with the same list continues where it was cut off
     ///
-    /// What the list has as done, and whose output is there, is not done again. Remove the list to
-    /// start anew.
+    /// A file that the list has as done, and whose output exists, is not done again. Remove the
+    /// list to start over.
     #[arg(long, value_name = "FILE", display_order = 103)]
     pub(crate) manifest: Option<PathBuf>,
     /// Do every N-th file only, from the I-th on: 1/4, 2/4, 3/4 and 4/4 together do all
@@ -72,7 +72,7 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// The same for the library; `keep_buffers` are read by other files, too.
+    /// The flags for the library; `keep_buffers` are those that other files read too.
     pub(crate) fn options(&self, keep_buffers: &[PathBuf]) -> ReadOptions {
         let mut options = ReadOptions::default();
         options.strict = self.strict;

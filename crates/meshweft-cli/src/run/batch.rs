@@ -41,13 +41,14 @@ pub(super) fn run<T: Send>(
             });
         }
         drop(sender);
+
         let mut waiting = BTreeMap::new();
         let mut first_failure = None;
         let mut turn = 0;
         let mut show = |item, result: Result<T>| -> Result<()> {
             let reported = report(item, result.as_ref());
             if reported.is_err() {
-                // Nobody reads what is reported: no use to go on.
+                // Nobody reads the reports any more: further work is of no use.
                 is_stopped.store(true, Ordering::Relaxed);
             }
             if let Err(error) = result {
@@ -55,6 +56,8 @@ pub(super) fn run<T: Send>(
             }
             reported
         };
+
+        // Results that come before their turn wait for it.
         for (item, result) in results {
             waiting.insert(item, result);
             while let Some(result) = waiting.remove(&turn) {
@@ -62,6 +65,7 @@ pub(super) fn run<T: Send>(
                 turn += 1;
             }
         }
+
         // After a stop, items between may not have been begun.
         for (item, result) in waiting {
             show(item, result)?;

@@ -1,4 +1,4 @@
-//! The files that the command line names: as they are, in folders, by patterns.
+//! The files that the command line names: one by one, by folder, or by pattern.
 
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
@@ -16,10 +16,11 @@ pub(crate) struct Input {
     pub(crate) relative: PathBuf,
 }
 
-/// The files behind the names, in the order of the names, each once; within a folder sorted.
+/// The files that the names stand for, in the order of the names, each once; sorted within a
+/// folder.
 ///
 /// A folder gives every mesh file in it and below, without hidden ones and without those in
-/// `except`. A name that is no file but has `*`, `?` or `[` is a pattern.
+/// `except`. A name that has `*`, `?` or `[` and does not exist as a file is a pattern.
 pub(crate) fn expand(names: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>> {
     let except = except.and_then(|folder| fs::canonicalize(folder).ok());
     let mut inputs: Vec<Input> = Vec::new();
@@ -37,11 +38,13 @@ pub(crate) fn expand(names: &[PathBuf], except: Option<&Path>) -> Result<Vec<Inp
             inputs.push(Input { path, relative });
             continue;
         }
+
         if inputs.len() == before {
             let name = name.display();
             return Err(Usage(format!("{name}: no mesh file is there")).into());
         }
     }
+
     let mut seen = std::collections::BTreeSet::new();
     inputs.retain(|input| seen.insert(input.path.clone()));
     Ok(inputs)
@@ -58,6 +61,7 @@ fn walk(
     if except.is_some() && fs::canonicalize(&folder).ok().as_deref() == except {
         return Ok(());
     }
+
     let mut entries = fs::read_dir(&folder)?.collect::<io::Result<Vec<_>>>()?;
     entries.sort_by_key(fs::DirEntry::file_name);
     for entry in entries {

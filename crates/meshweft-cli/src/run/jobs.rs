@@ -17,7 +17,7 @@ pub(crate) struct Jobs {
     pub(crate) list: Vec<Job>,
     /// Whether the command line names one file, rather than a folder, a pattern or several.
     pub(crate) is_one_file: bool,
-    /// Buffers that a file of the list reads and another file, too.
+    /// Buffers that a file of the list reads and another file reads too.
     pub(crate) shared_buffers: Vec<PathBuf>,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Job {
 }
 
 impl Jobs {
-    /// Every file behind `names`, or the run's share of them, and where it goes.
+    /// Every file that `names` stand for, or the run's share of them, and where it goes.
     pub(crate) fn new(names: &[PathBuf], run: &Run) -> Result<Self> {
         let output = run.output.as_deref();
         if output.is_none() && !run.in_place && !run.dry_run {

@@ -1,4 +1,4 @@
-//! The list of what a run has done, by which a later run goes on where it was cut off.
+//! The list of what a run has done, from which a later run continues where it was cut off.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
@@ -28,6 +28,7 @@ impl Manifest {
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
             Err(error) => return Err(error).with_context(context),
         };
+
         let mut done = BTreeSet::new();
         let lines = text
             .split_inclusive('\n')
@@ -43,6 +44,7 @@ impl Manifest {
                 done.insert(pair);
             }
         }
+
         let file = OpenOptions::new().append(true).create(true).open(path);
         let mut file = file.with_context(context)?;
         // A run that was killed may have left half a line.
@@ -84,6 +86,7 @@ impl Manifest {
                 line["error"] = error.as_str().into();
             }
         }
+
         let line = format!("{line}\n");
         let mut file = self.file.lock().unwrap_or_else(|lock| lock.into_inner());
         file.write_all(line.as_bytes())

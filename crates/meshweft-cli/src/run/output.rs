@@ -108,7 +108,7 @@ fn place(place: &Place) -> String {
     }
 }
 
-/// Whether whoever read our output has gone: no error to report, nobody to report it to.
+/// Whether whoever read our output has gone: not an error, and nobody is left to tell.
 pub(crate) fn is_broken_pipe(error: &Error) -> bool {
     let io = error.chain().filter_map(|e| e.downcast_ref::<io::Error>());
     io.into_iter()

@@ -16,7 +16,7 @@ use means::{fig_7, fig_8, fig_10};
 use printed::FIG_3;
 
 /// Prints the figures for the meshes found in the data folder.
-pub(in crate::paper) fn run(arguments: &OfPaper) -> Result<()> {
+pub(super) fn run(arguments: &OfPaper) -> Result<()> {
     let mut found = Vec::new();
     for printed in &FIG_3 {
         if let Some(mesh) = Found::open(printed, &arguments.data)? {
@@ -29,7 +29,7 @@ pub(in crate::paper) fn run(arguments: &OfPaper) -> Result<()> {
     if found.is_empty() {
         bail!(
             "{}: none of the paper's meshes is here. Files are looked for by name, such as \
-             fandisk.off, bunny.ply or horse.obj, also with .gz, and in a folder `meshes`",
+             fandisk.off, bunny.ply or horse.obj, optionally followed by .gz, and in a folder `meshes`",
             arguments.data.display()
         );
     }
