@@ -2,20 +2,12 @@
 
 use clap::Args;
 use meshweft::CacheModel;
-
-/// Counted for unless others are asked for.
-pub(crate) const USUAL: [CacheModel; 6] = [
-    CacheModel::fifo(12),
-    CacheModel::fifo(16),
-    CacheModel::fifo(32),
-    CacheModel::NVIDIA,
-    CacheModel::AMD,
-    CacheModel::INTEL,
-];
+use meshweft::operations::USUAL_CACHES;
 
 #[derive(Debug, Args)]
 pub(crate) struct Caches {
-    /// A cache to count for, may be repeated: fifo:K, lru:K, controllable:K, nvidia, amd, intel
+    /// A cache to count for, may be repeated: fifo:K, lru:K, controllable:K, nvidia, amd,
+    /// intel, batch:K/V/F (cache size, most vertices and most faces of a batch; 0 for no limit)
     /// [default: fifo:12 fifo:16 fifo:32 nvidia amd intel]
     #[arg(long = "cache", value_name = "MODEL")]
     models: Vec<CacheModel>,
@@ -25,7 +17,7 @@ impl Caches {
     /// The models asked for, each once, or the usual six.
     pub(crate) fn models(&self) -> Vec<CacheModel> {
         let asked = match self.models.is_empty() {
-            true => &USUAL[..],
+            true => &USUAL_CACHES[..],
             false => &self.models[..],
         };
         let mut models = Vec::new();

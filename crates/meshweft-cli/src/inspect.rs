@@ -6,13 +6,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Error, Result};
 use clap::Args;
 use meshweft::files::Document;
+use meshweft::operations::{self, Counts, InspectReport, Method};
 use meshweft::{CacheModel, Limits, Mesh};
-use serde_json::{Value, json};
 
 use crate::caches::Caches;
 use crate::columns::columns;
-use crate::count::Counts;
-use crate::methods::METHODS;
 use crate::plot::{self, Curve};
 use crate::run::inputs;
 use crate::run::output::{self, Report};
@@ -68,11 +66,11 @@ fn curves(document: &Document, with_methods: bool) -> Vec<Curve> {
     let meshes = || document.meshes().iter().map(|entry| &entry.mesh);
     let mut curves = vec![Curve::new(file.clone(), meshes().map(Mesh::faces))];
     if with_methods {
-        for method in &METHODS {
+        for method in Method::SHOWN {
             let orders: Vec<_> = meshes()
-                .map(|mesh| (method.order)(mesh).apply(mesh.faces()))
+                .map(|mesh| method.order(mesh).apply(mesh.faces()))
                 .collect();
-            let name = format!("{file}, {}", method.name);
+            let name = format!("{file}, {method}");
             curves.push(Curve::new(name, orders.iter().map(Vec::as_slice)));
         }
     }
@@ -81,39 +79,19 @@ fn curves(document: &Document, with_methods: bool) -> Vec<Curve> {
 
 fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<Vec<Curve>> {
     let document = Document::open(path, Limits::default())?;
-    let entries = document.meshes();
-    let each = entries.iter().map(|e| Counts::of(&e.mesh, models));
-    let counts: Vec<_> = each.collect();
-    let total = Counts::total(entries, &counts, models);
-
-    let meshes: Vec<Value> = entries
-        .iter()
-        .zip(&counts)
-        .map(|(entry, count)| {
-            let mut object = count.json();
-            object.shift_insert(0, "name".into(), json!(entry.name));
-            Value::Object(object)
-        })
-        .collect();
-    let members = json!({
-        "file": path.display().to_string(),
-        "format": document.format().to_string(),
-        "meshes": meshes,
-        "total": total.json(),
-        "notes": output::notes_json(&document),
-    });
-
-    let report = &arguments.report;
-    report.json("inspect", &members)?;
-    report.text(&text(&document, &counts, &total))?;
-    report.notes(&output::note_lines(&document))?;
+    let report = operations::inspect(&document, models);
+    arguments.report.json_line(&report.to_json())?;
+    arguments.report.text(&text(&report))?;
+    let notes = output::note_lines(&report.file, &report.notes);
+    arguments.report.notes(&notes)?;
     Ok(match arguments.plot {
         Some(_) => curves(&document, arguments.methods),
         None => Vec::new(),
     })
 }
 
-fn text(document: &Document, counts: &[Counts], total: &Counts) -> String {
+fn text(report: &InspectReport) -> String {
+    let total = &report.total;
     let mut rows = vec![vec![
         "mesh".to_owned(),
         "faces".into(),
@@ -133,11 +111,11 @@ fn text(document: &Document, counts: &[Counts], total: &Counts) -> String {
         let name = [name.to_owned()].into_iter();
         name.chain(sizes).chain(ratios).collect::<Vec<_>>()
     };
-    for (entry, counts) in document.meshes().iter().zip(counts) {
-        rows.push(row(&entry.name, counts));
+    for (name, counts) in &report.meshes {
+        rows.push(row(name, counts));
     }
-    if counts.len() != 1 {
+    if report.meshes.len() != 1 {
         rows.push(row("total", total));
     }
-    format!("{}\n{}", document.path().display(), columns(&rows))
+    format!("{}\n{}", report.file.display(), columns(&rows))
 }

@@ -4,10 +4,8 @@
 mod caches;
 mod columns;
 mod compare;
-mod count;
 mod demo;
 mod inspect;
-mod methods;
 mod optimize;
 mod paper;
 mod plot;

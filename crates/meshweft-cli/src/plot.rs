@@ -4,8 +4,6 @@ use std::fmt::Write;
 
 use meshweft::{CacheModel, cache};
 
-use crate::count::ratio;
-
 /// Cache sizes of a curve.
 const SIZES: [u32; 22] = [
     3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 80, 96, 128,
@@ -34,11 +32,11 @@ impl Curve {
         name: String,
         meshes: impl Iterator<Item = &'a [[u32; 3]]> + Clone,
     ) -> Self {
-        let face_count = meshes.clone().map(<[_]>::len).sum();
+        let face_count: usize = meshes.clone().map(<[_]>::len).sum();
         let acmr = |size: &u32| {
             let misses = |faces: &[[u32; 3]]| cache::misses(faces, CacheModel::fifo(*size));
             let sum: u64 = meshes.clone().map(misses).sum();
-            ratio(sum as f64, face_count)
+            sum as f64 / face_count.max(1) as f64
         };
         Self {
             name,

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use anyhow::Error;
+use meshweft::files::{FileError, FileErrorKind};
 
 /// What the command line asks for cannot be done; exit code 2.
 #[derive(Debug)]
@@ -18,8 +19,15 @@ impl std::error::Error for Usage {}
 
 /// The text of an error, in each report and on standard error.
 ///
-/// Made in one place, because the library does not know the program's flags: where a flag helps,
-/// it is to be named here.
+/// Made in one place, because the library does not know the program's flags: where a flag helps, it
+/// is named here.
 pub(crate) fn message(error: &Error) -> String {
-    format!("{error:#}")
+    let text = format!("{error:#}");
+    match error.downcast_ref().map(|error: &FileError| &error.kind) {
+        Some(FileErrorKind::Unknown { name, .. }) => format!(
+            "{text}. Leave out --strict to keep what it may depend on, or say \
+             --assume-order-safe {name} if it does not"
+        ),
+        _ => text,
+    }
 }

@@ -1,8 +1,8 @@
-//! Errors about arrays that the caller made.
+//! Errors in the caller's arrays.
 
 use std::fmt;
 
-/// What is wrong with arrays that the caller handed over.
+/// What is wrong with an array from the caller.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MeshError {
@@ -17,21 +17,21 @@ pub enum MeshError {
         /// How many vertices the mesh has.
         vertex_count: usize,
     },
-    /// Flat indices whose number is no multiple of three.
+    /// The number of flat indices is not a multiple of three.
     PartialFace {
         /// How many there are.
         len: usize,
     },
     /// More vertices or faces than 32-bit numbers can count.
     TooLarge {
-        /// `"vertices"` or `"faces"`.
+        /// What there is too much of, such as `"vertices"` or `"faces"`.
         what: &'static str,
         /// How many there are.
         count: usize,
         /// How many are allowed.
         limit: usize,
     },
-    /// An array that should hold each number below its length once does not.
+    /// An array does not have each number below its length exactly once.
     NotAPermutation {
         /// Position of the offending entry.
         position: usize,
@@ -42,7 +42,7 @@ pub enum MeshError {
     },
     /// Two arrays that belong together have different lengths.
     LengthMismatch {
-        /// What was being put together.
+        /// What the array is.
         what: &'static str,
         /// The length that was needed.
         expected: usize,
@@ -77,7 +77,10 @@ impl fmt::Display for MeshError {
                 ),
             },
             Self::PartialFace { len } => {
-                write!(f, "{len} indices are not whole faces: a face takes three")
+                write!(
+                    f,
+                    "{len} indices: not a multiple of three, the corners of a face"
+                )
             }
             Self::TooLarge { what, count, limit } => {
                 write!(f, "{count} {what}: at most {limit} fit in 32-bit indices")

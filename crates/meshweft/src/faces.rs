@@ -6,8 +6,8 @@ use crate::index::{MAX_FACES, MAX_VERTICES};
 /// Borrowed faces over a number of vertices, checked once: what every order, count and cut takes.
 ///
 /// Wherever `impl Into<Faces>` is asked for, a [`Mesh`](crate::Mesh) lends its faces, and a slice of
-/// `[u32; 3]` is taken as it is, over as many vertices as its greatest index asks for. Flat indices
-/// come in by [`from_indices`](Self::from_indices), 16-bit ones by [`widened`](Self::widened).
+/// `[u32; 3]` is taken with a vertex count of its largest index plus one. Flat indices come in by
+/// [`from_indices`](Self::from_indices), 16-bit ones by [`widened`](Self::widened).
 ///
 /// ```
 /// use meshweft::{CacheModel, Faces, cache, order::vertex_fetch};
@@ -75,8 +75,7 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// The faces of flat 16-bit indices, three a face, widened into `buffer`, which may be used again
-    /// and again.
+    /// The faces of flat 16-bit indices, three a face, widened into `buffer`, which can be reused.
     ///
     /// # Errors
     /// As [`from_indices`](Self::from_indices).
@@ -117,7 +116,7 @@ impl<'a> Faces<'a> {
     /// The three vertices of each face.
     #[must_use]
     #[inline]
-    pub fn corners(&self) -> &'a [[u32; 3]] {
+    pub fn as_slice(&self) -> &'a [[u32; 3]] {
         self.corners
     }
 
@@ -144,17 +143,19 @@ impl<'a> Faces<'a> {
 }
 
 impl<'a> From<&'a [[u32; 3]]> for Faces<'a> {
-    /// Over as many vertices as the greatest index asks for; O(faces).
+    /// The vertex count is the largest index plus one; O(faces). Most calls allocate by the vertex
+    /// count: check indices that you do not trust by [`Faces::new`].
     ///
     /// # Panics
-    /// If that are more than 2³² − 1 vertices, or there are more than (2³² − 1) / 3 faces.
+    /// If an index is `u32::MAX`, or there are more than (2³² − 1) / 3 faces.
     fn from(corners: &'a [[u32; 3]]) -> Self {
         let greatest = corners.as_flattened().iter().max();
-        let vertex_count = greatest.map_or(0, |&greatest| greatest as usize + 1);
+        let greatest = greatest.copied();
         assert!(
-            vertex_count <= MAX_VERTICES && corners.len() <= MAX_FACES,
+            greatest != Some(u32::MAX) && corners.len() <= MAX_FACES,
             "more vertices or faces than 32-bit indices count"
         );
+        let vertex_count = greatest.map_or(0, |greatest| greatest as usize + 1);
         Self {
             corners,
             vertex_count,
@@ -222,7 +223,7 @@ mod tests {
         assert_eq!(error, MeshError::PartialFace { len: 4 });
         assert_eq!(
             error.to_string(),
-            "4 indices are not whole faces: a face takes three"
+            "4 indices: not a multiple of three, the corners of a face"
         );
         let error = Faces::widened(&[0, 1], 3, &mut Vec::new()).unwrap_err();
         assert_eq!(error, MeshError::PartialFace { len: 2 });

@@ -6,23 +6,24 @@
 //! vertex is transformed two to six times; in a good order, hardly more than once.
 //!
 //! ```
-//! use meshweft::{CacheModel, Mesh, cache, order::KCacheReorder, order::vertex_fetch};
+//! use meshweft::operations::{IndexOptions, optimize_indices};
+//! use meshweft::{CacheModel, cache};
 //!
-//! // Four vertices, two faces; any arrays will do.
-//! let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 0.]];
-//! let mesh = Mesh::new(&positions, &[[0, 1, 2], [2, 1, 3]])?;
+//! // Flat indices, three a face, 32 or 16 bits: put in place in a better order.
+//! let mut indices: [u16; 6] = [0, 1, 2, 2, 1, 3];
+//! let orders = optimize_indices(&mut indices, 4, &IndexOptions::default())?;
+//! assert!(orders.faces.is_identity()); // Two faces cannot be ordered any better.
 //!
-//! let order = KCacheReorder { cache: CacheModel::fifo(16), ..Default::default() }.face_order(&mesh);
-//! let mesh = mesh.with_face_order(&order);
-//! let mesh = mesh.with_vertex_order(&vertex_fetch(mesh.faces(), mesh.vertex_count()));
-//! assert_eq!(cache::acmr(mesh.faces(), CacheModel::fifo(16)), 2.0); // 4 misses, 2 faces
+//! let faces = [[0, 1, 2], [2, 1, 3]];
+//! assert_eq!(cache::acmr(&faces, CacheModel::fifo(16)), 2.0); // 4 misses, 2 faces
 //! # Ok::<(), meshweft::MeshError>(())
 //! ```
 //!
 //! Values go in, values come out: plain arrays, one struct an algorithm whose public fields are
 //! named as in its paper, and orders as values ([`FaceOrder`], [`VertexOrder`]) that say which way
-//! they are read. Start with [`order::KCacheReorder`]; count with [`cache`]; files are changed in
-//! place by `files` (feature `files`).
+//! they are read. Whatever takes faces takes a [`Mesh`], a slice of triples, or [`Faces`], checked
+//! once. Start with [`operations`]; algorithms one by one are in [`order`], counts in [`cache`]; files
+//! are changed in place by `files` (feature `files`).
 //!
 //! The library is pure Rust, forbids unsafe code, has no dependency by default and gives the same
 //! result on every platform.
@@ -32,9 +33,11 @@ mod error;
 mod faces;
 #[cfg(feature = "files")]
 pub mod files;
+pub mod geometry;
 mod index;
 mod limits;
 mod mesh;
+pub mod operations;
 pub mod order;
 mod parallel;
 pub mod partition;

@@ -1,9 +1,8 @@
 //! How much a reader accepts before it refuses.
 
-#[cfg_attr(not(feature = "files"), expect(unused_imports))]
-pub(crate) use crate::index::{MAX_FACES, MAX_VERTICES, index32};
+use crate::index::{MAX_FACES, MAX_VERTICES};
 
-/// What a reader accepts from bytes that nobody vouches for.
+/// What a reader accepts from untrusted bytes.
 ///
 /// A count in a file is compared with the bytes that are there *before* anything is allocated, so
 /// the limits are a second fence: they bound honest but huge input.

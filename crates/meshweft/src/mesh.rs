@@ -4,10 +4,10 @@ use crate::error::MeshError;
 use crate::faces::Faces;
 use crate::permutation::{FaceOrder, VertexOrder};
 
-/// Vertices and faces whose indices are known to be in range.
+/// Vertices and faces whose indices are in range.
 ///
-/// Every input is legal that names vertices in range: isolated vertices, faces that name a vertex
-/// twice, faces that come twice, edges and vertices of any kind, any orientation, no faces at all.
+/// Every input whose indices are in range is valid: isolated vertices, faces that name a vertex
+/// twice, repeated faces, non-manifold edges and vertices, any orientation, no faces at all.
 ///
 /// ```
 /// use meshweft::Mesh;
@@ -22,21 +22,21 @@ use crate::permutation::{FaceOrder, VertexOrder};
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
-    /// One entry a vertex, or empty where only the connectivity is known.
+    /// One entry a vertex, or empty if only the connectivity is known.
     positions: Vec<[f32; 3]>,
     faces: Vec<[u32; 3]>,
     vertex_count: usize,
 }
 
 impl Mesh {
-    /// The mesh of these vertices and faces.
+    /// A mesh of these vertex positions and faces.
     ///
     /// # Errors
     /// [`MeshError::IndexOutOfRange`] for the first index that names no vertex,
     /// [`MeshError::TooLarge`] beyond 2³² − 1 vertices or (2³² − 1) / 3 faces.
     ///
     /// # Complexity
-    /// Time O(faces); no memory beyond the arrays handed over.
+    /// Time O(faces); no memory beyond the two arrays.
     pub fn new(
         positions: impl Into<Vec<[f32; 3]>>,
         faces: impl Into<Vec<[u32; 3]>>,
@@ -46,7 +46,7 @@ impl Mesh {
         Self::checked(positions, vertex_count, faces.into())
     }
 
-    /// A mesh without positions: all that ordering for a vertex cache needs.
+    /// A mesh without positions, which is enough to order it for a vertex cache.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -70,7 +70,7 @@ impl Mesh {
         })
     }
 
-    /// The position of each vertex; empty if the mesh was made without.
+    /// The position of each vertex; empty if the mesh was made without positions.
     #[must_use]
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions
@@ -82,7 +82,7 @@ impl Mesh {
         &self.faces
     }
 
-    /// The faces over the vertices of this mesh: what orders, counts and cuts take.
+    /// The faces and the vertex count, in the form that orders, metrics and cuts take.
     #[must_use]
     pub fn as_faces(&self) -> Faces<'_> {
         Faces::of_checked(&self.faces, self.vertex_count)
@@ -103,7 +103,7 @@ impl Mesh {
     /// The same mesh with its faces drawn in another order.
     ///
     /// # Panics
-    /// If the order is of another number of faces.
+    /// If the order has another number of faces.
     #[must_use]
     pub fn with_face_order(&self, order: &FaceOrder) -> Self {
         Self {
@@ -122,7 +122,7 @@ impl Mesh {
         }
     }
 
-    /// As [`with_vertex_order`](Self::with_vertex_order), the faces renumbered where they are.
+    /// As [`with_vertex_order`](Self::with_vertex_order), but renumbers the faces in place.
     #[cfg(feature = "files")]
     pub(crate) fn into_vertex_order(mut self, order: &VertexOrder) -> Self {
         if !self.positions.is_empty() {
@@ -135,7 +135,7 @@ impl Mesh {
     /// The same mesh with its vertices stored in another order and the faces renumbered to match.
     ///
     /// # Panics
-    /// If the order is of another number of vertices.
+    /// If the order has another number of vertices.
     #[must_use]
     pub fn with_vertex_order(&self, order: &VertexOrder) -> Self {
         assert_eq!(

@@ -1,13 +1,14 @@
 //! Orders as values, with one documented direction.
 //!
-//! The classic bug of this field is a table read backwards. Here there is one convention:
+//! The classic bug of this field is a permutation read backwards. Here there is one convention:
 //! a permutation is stored as `new_to_old`, so `out[i] = in[new_to_old[i]]`.
 
 use crate::error::MeshError;
 use crate::faces::turned;
 use crate::index::{MAX_VERTICES, index32};
+use crate::random::shuffled;
 
-/// Each number below its length once: `out[i] = in[new_to_old[i]]`.
+/// An order of `n` things, each number below `n` once: `out[i] = in[new_to_old[i]]`.
 ///
 /// ```
 /// use meshweft::Permutation;
@@ -25,7 +26,7 @@ impl Permutation {
     /// The permutation with `out[i] = in[new_to_old[i]]`.
     ///
     /// # Errors
-    /// [`MeshError::NotAPermutation`] if a value is too large or comes twice,
+    /// [`MeshError::NotAPermutation`] if a value is too large or repeated,
     /// [`MeshError::TooLarge`] if there are more than 2³² − 1 entries.
     ///
     /// # Complexity
@@ -75,6 +76,23 @@ impl Permutation {
         }
     }
 
+    /// A random permutation, the same for the same seed on every platform.
+    ///
+    /// Numbers are drawn by SplitMix64 (Steele, Lea, Flood 2014, doi:10.1145/2714064.2660195).
+    ///
+    /// # Panics
+    /// If `len` is more than 2³² − 1.
+    #[must_use]
+    pub fn random(len: usize, seed: u64) -> Self {
+        assert!(
+            len <= MAX_VERTICES,
+            "more entries than 32-bit indices count"
+        );
+        Self {
+            new_to_old: shuffled(len, seed),
+        }
+    }
+
     /// The old position of each new position.
     #[must_use]
     pub fn new_to_old(&self) -> &[u32] {
@@ -99,7 +117,7 @@ impl Permutation {
         }
     }
 
-    /// This permutation, then another of its result, as one.
+    /// One permutation that has the effect of this one, followed by `next`.
     ///
     /// # Panics
     /// If the lengths differ.
@@ -117,13 +135,13 @@ impl Permutation {
         }
     }
 
-    /// How many entries it has.
+    /// The number of entries.
     #[must_use]
     pub fn len(&self) -> usize {
         self.new_to_old.len()
     }
 
-    /// Whether it has no entries.
+    /// Whether there are no entries.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.new_to_old.is_empty()
@@ -153,22 +171,24 @@ impl Permutation {
 
 /// The order in which faces are drawn, and how far each one's corners are turned.
 ///
-/// Turning moves the first corner to another of the three, never the winding: with rotation `r`,
-/// new corner `j` is old corner `(j + r) % 3`.
+/// Turning changes which of the three corners is first, never the winding: with rotation `r`, new
+/// corner `j` is old corner `(j + r) % 3`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
 pub struct FaceOrder {
     permutation: Permutation,
-    /// One entry a face in the *new* order, or empty where no corner is turned.
+    /// One entry a face in the *new* order, or empty if no corners are turned.
     rotations: Vec<u8>,
 }
 
 impl FaceOrder {
-    /// The order that draws old face `new_to_old[i]` as the `i`-th, corners turned by `rotations[i]`.
+    /// The order that draws old face `new_to_old[i]` as the `i`-th, with corners turned by
+    /// `rotations[i]`.
     ///
-    /// `rotations` is empty (no corner is turned) or as long as the permutation.
+    /// `rotations` is empty (no corners are turned) or as long as the permutation.
     ///
     /// # Errors
-    /// [`MeshError::LengthMismatch`] or [`MeshError::InvalidRotation`].
+    /// [`MeshError::LengthMismatch`] if the lengths differ, [`MeshError::InvalidRotation`] if a
+    /// rotation is above 2.
     pub fn new(permutation: Permutation, rotations: Vec<u8>) -> Result<Self, MeshError> {
         if !rotations.is_empty() && rotations.len() != permutation.len() {
             return Err(MeshError::LengthMismatch {
@@ -223,13 +243,13 @@ impl FaceOrder {
         }
     }
 
-    /// All rotations in the new order; empty if no corner is turned.
+    /// All rotations in the new order; empty if no corners are turned.
     #[must_use]
     pub fn rotations(&self) -> &[u8] {
         &self.rotations
     }
 
-    /// This order, then another of its result, as one.
+    /// One order that has the effect of this one, followed by `next`.
     ///
     /// # Panics
     /// If the lengths differ.
@@ -266,9 +286,9 @@ impl FaceOrder {
         self.permutation.is_identity() && self.rotations.iter().all(|&r| r == 0)
     }
 
-    /// The records of `corners`, three a face, in the new order with the corners turned.
+    /// The faces in the new order, with their corners turned.
     ///
-    /// Works for vertex indices and for whatever else hangs on a corner.
+    /// A corner may be a vertex index or any other data of a corner.
     ///
     /// # Panics
     /// If `faces` has another length.
@@ -324,7 +344,7 @@ impl VertexOrder {
         self.permutation.new_to_old()
     }
 
-    /// This order, then another of its result, as one.
+    /// One order that has the effect of this one, followed by `next`.
     ///
     /// # Panics
     /// If the lengths differ.
@@ -351,7 +371,7 @@ impl VertexOrder {
         self.permutation.is_identity()
     }
 
-    /// The same faces, naming vertices by their new numbers.
+    /// The faces with the new number of each vertex.
     ///
     /// # Panics
     /// If a face names a vertex that the order does not have.

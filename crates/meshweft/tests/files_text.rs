@@ -4,6 +4,8 @@
 
 #[path = "files_text/broken.rs"]
 mod broken;
+#[path = "data/folder.rs"]
+mod data;
 #[path = "files_errors/mod.rs"]
 mod errors;
 #[path = "files_text/real.rs"]

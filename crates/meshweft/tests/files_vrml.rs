@@ -4,6 +4,8 @@
 
 #[path = "files_vrml/broken.rs"]
 mod broken;
+#[path = "data/folder.rs"]
+mod data;
 #[path = "files_errors/mod.rs"]
 mod errors;
 #[path = "files_vrml/plain.rs"]
@@ -296,15 +298,8 @@ fn every_reason_to_stay_is_said() {
 
 #[test]
 fn the_real_file_keeps_its_faces() {
-    let folder = std::env::var_os("MESHWEFT_DATA").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-        std::path::PathBuf::from,
-    );
+    let Some(folder) = data::folder() else { return };
     let path = folder.join("meshes/sextant.wrl.gz");
-    if !folder.is_dir() {
-        eprintln!("SKIPPED sextant.wrl: there is no MESHWEFT_DATA and no ../shared/data");
-        return;
-    }
     let document = Document::open(&path, Limits::default()).unwrap();
     let total = |count: fn(&meshweft::files::MeshEntry) -> usize| {
         document.meshes().iter().map(count).sum::<usize>()

@@ -205,12 +205,12 @@ fn thorough(budget: Budget) -> Optimizer {
 fn a_caller_with_a_clock_gets_an_order_in_its_time() {
     let mesh = shuffled_grid(40);
     let caller = Hurried::default();
-    let order = Optimizer::default().run(&mesh, None, &caller);
+    let order = Optimizer::default().face_order_with(&mesh, None, &caller);
     assert_reorders(&mesh, &order);
     assert!(caller.looks.into_inner() > 10, "it looked at the clock");
     let greedy = Optimizer::for_cache(CacheModel::fifo(12));
     assert_ne!(
-        greedy.run(&mesh, None, &Hurried::default()),
+        greedy.face_order_with(&mesh, None, &Hurried::default()),
         greedy.face_order(&mesh),
         "with time it searches"
     );
@@ -220,7 +220,7 @@ fn a_caller_with_a_clock_gets_an_order_in_its_time() {
 fn what_is_stopped_is_whole_all_the_same() {
     let mesh = shuffled_grid(60);
     let caller = Stopping::default();
-    let order = thorough(Budget::Unlimited).run(&mesh, None, &caller);
+    let order = thorough(Budget::Unlimited).face_order_with(&mesh, None, &caller);
     assert_reorders(&mesh, &order);
     assert!(caller.reports.into_inner() > 0, "it was heard of");
     assert_ne!(order, thorough(Budget::Unlimited).face_order(&mesh));

@@ -1,9 +1,8 @@
 //! A mesh as a binary glTF: positions, normals, indices.
 
 use meshweft::Mesh;
+use meshweft::geometry::vertex_normals;
 use serde_json::json;
-
-use super::meshes::{cross, normalized, sub};
 
 /// The bytes of a GLB with this mesh alone.
 pub(super) fn glb(mesh: &Mesh, name: &str) -> Vec<u8> {
@@ -16,7 +15,11 @@ pub(super) fn glb(mesh: &Mesh, name: &str) -> Vec<u8> {
 
     // The buffer: positions, normals, indices.
     let mut binary: Vec<u8> = Vec::new();
-    for value in positions.iter().chain(&vertex_normals(mesh)).flatten() {
+    for value in positions
+        .iter()
+        .chain(&vertex_normals(positions, mesh.faces()))
+        .flatten()
+    {
         binary.extend(value.to_le_bytes());
     }
     for index in mesh.faces().iter().flatten() {
@@ -67,19 +70,4 @@ pub(super) fn glb(mesh: &Mesh, name: &str) -> Vec<u8> {
         glb.extend(chunk);
     }
     glb
-}
-
-/// Normals at the vertices, weighted by face area.
-pub(super) fn vertex_normals(mesh: &Mesh) -> Vec<[f32; 3]> {
-    let mut normals = vec![[0.0_f32; 3]; mesh.vertex_count()];
-    for face in mesh.faces() {
-        let [a, b, c] = face.map(|v| mesh.positions()[v as usize]);
-        let area = cross(sub(b, a), sub(c, a));
-        for &vertex in face {
-            for (sum, part) in normals[vertex as usize].iter_mut().zip(area) {
-                *sum += part;
-            }
-        }
-    }
-    normals.into_iter().map(normalized).collect()
 }

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::f32::consts::TAU;
 
-use meshweft::order::baselines::random;
-use meshweft::{FaceOrder, Mesh, VertexOrder};
+use meshweft::geometry::{cross, normalized, sub};
+use meshweft::{FaceOrder, Mesh, Permutation, VertexOrder};
 
 /// A trefoil knot as a tube whose rings are shifted and whose diagonals are random.
 pub(super) fn knot(face_count: u32) -> Mesh {
@@ -12,7 +12,7 @@ pub(super) fn knot(face_count: u32) -> Mesh {
     let around = (face_count / 44).isqrt().max(5);
     let along = (face_count / (2 * around)).max(8);
 
-    let chance = random((around * along) as usize, 1);
+    let chance = Permutation::random((around * along) as usize, 1);
     let chance = |x: u32, y: u32, sides: u32| {
         chance.new_to_old()[((y % along) * around + x % around) as usize] % sides
     };
@@ -158,32 +158,15 @@ fn tetrahedron(
 
 /// The mesh with faces and vertices in random order.
 pub(super) fn shuffled(mesh: &Mesh) -> Mesh {
-    let faces = FaceOrder::from(random(mesh.face_count(), 2));
-    let vertices = VertexOrder::from(random(mesh.vertex_count(), 3));
+    let faces = FaceOrder::from(Permutation::random(mesh.face_count(), 2));
+    let vertices = VertexOrder::from(Permutation::random(mesh.vertex_count(), 3));
     mesh.with_face_order(&faces).with_vertex_order(&vertices)
-}
-
-pub(super) fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    let part = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
-    [part(1, 2), part(2, 0), part(0, 1)]
-}
-
-pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn normalized(a: [f32; 3]) -> [f32; 3] {
-    let length = dot(a, a).sqrt().max(f32::MIN_POSITIVE);
-    a.map(|x| x / length)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use meshweft::geometry::dot;
     use std::collections::BTreeMap;
 
     /// Every edge is run once in each direction: closed, manifold, oriented.

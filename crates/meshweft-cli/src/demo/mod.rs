@@ -10,13 +10,12 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use meshweft::order::baselines::{random, tipsify};
-use meshweft::order::{Effort, Mode, vertex_fetch};
-use meshweft::{CacheModel, FaceOrder, Mesh, cache};
+use meshweft::operations::Method;
+use meshweft::order::{Effort, Mode};
+use meshweft::{CacheModel, Mesh, cache};
 use serde_json::{Value, json};
 
 use crate::columns::columns;
-use crate::methods::{k_cache_reorder, universal};
 use crate::run::output::Report;
 
 #[derive(Debug, Args)]
@@ -37,22 +36,16 @@ const SIZES: [u32; 3] = [12, 16, 32];
 /// GPU models of the columns, counted on the order made for the first size.
 const GPUS: [CacheModel; 3] = [CacheModel::NVIDIA, CacheModel::AMD, CacheModel::INTEL];
 
-/// A name and a way to order a mesh for a FIFO cache of a size.
-type Method = (&'static str, fn(&Mesh, u32) -> FaceOrder);
-
-const METHODS: [Method; 6] = [
-    ("as it comes", |mesh, _| {
-        FaceOrder::identity(mesh.face_count())
-    }),
-    ("random", |mesh, _| random(mesh.face_count(), 7).into()),
-    ("Tipsify", |mesh, size| tipsify(mesh, size)),
-    ("K-Cache-Reorder, faithful", |mesh, size| {
-        k_cache_reorder(mesh, size, Mode::Faithful)
-    }),
-    ("K-Cache-Reorder, fast", |mesh, size| {
-        k_cache_reorder(mesh, size, Mode::Fast)
-    }),
-    ("universal", |mesh, _| universal(mesh, Effort::Fast)),
+/// The orders of the rows, made for a FIFO cache of a size where that matters.
+const METHODS: [fn(u32) -> Method; 6] = [
+    |_| Method::AsItIs,
+    |_| Method::Random { seed: 7 },
+    |size| Method::Tipsify { size },
+    |size| Method::k_cache_reorder(size, Mode::Faithful),
+    |size| Method::k_cache_reorder(size, Mode::Fast),
+    |_| Method::Universal {
+        effort: Effort::Fast,
+    },
 ];
 
 /// Makes the meshes, orders them, prints what came out, writes a GLB and a picture.
@@ -81,7 +74,7 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
     // The orders.
     let mut results = Vec::new();
     for (name, title, mesh) in &inputs {
-        let rows: Vec<Row> = METHODS.iter().map(|method| row(mesh, method)).collect();
+        let rows: Vec<Row> = METHODS.iter().map(|&method| row(mesh, method)).collect();
         arguments.report.text(&text(title, mesh, &rows))?;
         results.push(json!({
             "name": name,
@@ -92,19 +85,17 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
     }
 
     // The files.
-    let ordered = |mesh: &Mesh| {
-        let mesh = mesh.with_face_order(&k_cache_reorder(mesh, 12, Mode::Fast));
-        mesh.with_vertex_order(&vertex_fetch(&mesh))
-    };
+    let method = Method::k_cache_reorder(SIZES[0], Mode::Fast);
+    let (knot, ordered_surface) = (method.applied(&knot), method.applied(&surface));
     let mut files = Vec::new();
     let mut write = |name: &str, bytes: Vec<u8>| {
         let path = folder.join(name);
         files.push(path.display().to_string());
         fs::write(&path, bytes).with_context(|| path.display().to_string())
     };
-    write("knot.glb", glb::glb(&ordered(&knot), "knot"))?;
-    write("isosurface.glb", glb::glb(&ordered(&surface), "isosurface"))?;
-    let picture = picture::before_and_after(&surface, &ordered(&surface), CacheModel::fifo(12));
+    write("knot.glb", glb::glb(&knot, "knot"))?;
+    write("isosurface.glb", glb::glb(&ordered_surface, "isosurface"))?;
+    let picture = picture::before_and_after(&surface, &ordered_surface, CacheModel::fifo(12));
     write("before-after.png", picture)?;
 
     let members = json!({"meshes": results, "files": files});
@@ -141,18 +132,18 @@ impl Row {
 }
 
 /// Orders for each size, counts each order at its size and the first on the GPUs.
-fn row(mesh: &Mesh, &(method, order): &Method) -> Row {
+fn row(mesh: &Mesh, method: fn(u32) -> Method) -> Row {
     let mut times = Vec::new();
     let orders = SIZES.map(|size| {
         let start = Instant::now();
-        let order = order(mesh, size);
+        let order = method(size).order(mesh);
         times.push(start.elapsed().as_secs_f64() * 1000.0);
         order.apply(mesh.faces())
     });
     times.sort_by(f64::total_cmp);
     let acmr = [0, 1, 2].map(|i| cache::acmr(&orders[i], CacheModel::fifo(SIZES[i])));
     Row {
-        method,
+        method: method(SIZES[0]).name(),
         acmr,
         atvr: GPUS.map(|gpu| cache::atvr(&orders[0], gpu)),
         milliseconds: times[times.len() / 2],

@@ -1,9 +1,7 @@
 //! Before and after, side by side, each face coloured by its cache misses.
 
+use meshweft::geometry::{dot, normalized, vertex_normals};
 use meshweft::{CacheModel, Mesh, cache};
-
-use super::glb::vertex_normals;
-use super::meshes::{dot, normalized};
 
 /// Pixels of each half.
 const SIZE: usize = 800;
@@ -63,7 +61,7 @@ fn average(half: &[[f32; 3]], x: usize, y: usize) -> [u8; 3] {
 fn draw(mesh: &Mesh, model: CacheModel) -> Vec<[f32; 3]> {
     let side = SIZE * SAMPLES;
     let missed = cache::misses_per_face(mesh.faces(), model);
-    let normals = vertex_normals(mesh);
+    let normals = vertex_normals(mesh.positions(), mesh.faces());
 
     // The camera.
     let right = normalized([0.80, 0.60, 0.0]);

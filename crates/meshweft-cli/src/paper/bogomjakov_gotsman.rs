@@ -5,18 +5,14 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
-use meshweft::order::baselines::random;
-use meshweft::order::bogomjakov_gotsman::{
-    LinearArrangement, RecursiveCut, linear_arrangement_cost,
-};
-use meshweft::order::{Effort, Grid, Target};
+use meshweft::operations::{Method, grid_orders, linear_arrangement_cost};
+use meshweft::order::{Effort, Target};
 use meshweft::{CacheModel, Mesh, cache};
 use serde_json::{Value, json};
 
 use super::arguments::OfPaper;
 use super::figure::{Figure, cells, head, mean, print};
 use super::meshes::{LARGE, open};
-use crate::methods::{METHODS, universal};
 
 /// Cache sizes of figures 4 and 8, which the paper drew as curves from 2 to 64.
 const SIZES: [u32; 9] = [4, 6, 8, 10, 12, 16, 24, 32, 64];
@@ -122,40 +118,29 @@ fn sizes_head(name: &str) -> Vec<String> {
     [name.to_owned()].into_iter().chain(sizes).collect()
 }
 
-fn recursive_cut(mesh: &Mesh) -> Vec<[u32; 3]> {
-    RecursiveCut::default().face_order(mesh).apply(mesh.faces())
-}
-
-fn linear_arrangement(mesh: &Mesh) -> Vec<[u32; 3]> {
-    LinearArrangement::default()
-        .face_order(mesh)
-        .apply(mesh.faces())
-}
-
-fn grid_mesh(grid: Grid) -> Mesh {
-    let vertices = (grid.columns as usize + 1) * (grid.rows as usize + 1);
-    Mesh::connectivity_only(vertices, grid.faces()).expect("a grid names its vertices")
+fn ordered(method: Method, mesh: &Mesh) -> Vec<[u32; 3]> {
+    method.order(mesh).apply(mesh.faces())
 }
 
 /// The regular mesh of figure 2 under the sequences of figure 4.
 fn fig_4() -> Figure {
-    let grid = Grid {
-        columns: 16,
-        rows: 8,
-    };
-    let mesh = grid_mesh(grid);
+    let (mesh, [snake, hilbert, primed]) = grid_orders(16, 8, 10);
     let faces = mesh.faces();
-
     let sequences = [
-        ("random", random(faces.len(), 1).apply(faces)),
-        ("snake (Fig. 2a)", grid.snake().apply(faces)),
-        ("Hilbert (2b)", grid.hilbert().apply(faces)),
-        ("recursive cut (2c)", recursive_cut(&mesh)),
-        ("linear arrangement (2d)", linear_arrangement(&mesh)),
-        ("primed rows, K=10", grid.primed_rows(10).apply(faces)),
+        ("random", ordered(Method::Random { seed: 1 }, &mesh)),
+        ("snake (Fig. 2a)", snake.1.apply(faces)),
+        ("Hilbert (2b)", hilbert.1.apply(faces)),
+        ("recursive cut (2c)", ordered(Method::RecursiveCut, &mesh)),
+        (
+            "linear arrangement (2d)",
+            ordered(Method::LinearArrangement, &mesh),
+        ),
+        ("primed rows, K=10", primed.1.apply(faces)),
     ];
-    let methods = METHODS.iter().filter(|method| method.name.contains("fast"));
-    let methods = methods.map(|method| (method.name, (method.order)(&mesh).apply(faces)));
+    let sequences = sequences.map(|(name, faces)| (name.to_owned(), faces));
+    let methods = Method::SHOWN.into_iter();
+    let methods = methods.filter(|method| method.name().contains("fast"));
+    let methods = methods.map(|method| (method.to_string(), ordered(method, &mesh)));
 
     let mut rows = vec![sizes_head("")];
     rows[0].push("cost".to_owned());
@@ -163,7 +148,7 @@ fn fig_4() -> Figure {
     for (name, faces) in sequences.into_iter().chain(methods) {
         let acmr = SIZES.map(|size| fifo(&faces, size));
         let cost = linear_arrangement_cost(&faces);
-        let mut row = cells(name, acmr);
+        let mut row = cells(&*name, acmr);
         row.push(cost.to_string());
         rows.push(row);
         json.push(json!({"sequence": name, "acmr": acmr, "linear_arrangement_cost": cost}));
@@ -182,11 +167,9 @@ fn fig_8(found: &[Found]) -> Figure {
     let mut rows = vec![sizes_head("")];
     let mut json = Vec::new();
     for it in found {
-        for (name, order) in [
-            ("recursive cut", recursive_cut as fn(&Mesh) -> _),
-            ("linear arrangement", linear_arrangement),
-        ] {
-            let faces = order(&it.mesh);
+        for method in [Method::RecursiveCut, Method::LinearArrangement] {
+            let name = method.name();
+            let faces = ordered(method, &it.mesh);
             let acmr = SIZES.map(|size| fifo(&faces, size));
             rows.push(cells(format!("{}, {name}", it.name()), acmr));
             json.push(json!({"mesh": it.printed.mesh, "sequence": name, "acmr": acmr}));
@@ -208,7 +191,7 @@ fn table_1(found: &[Found]) -> Figure {
     let mut json = Vec::new();
     let mut push = |name: String, vertices: usize, mesh: &Mesh, paper: f64| {
         let start = Instant::now();
-        std::hint::black_box(RecursiveCut::default().face_order(mesh));
+        std::hint::black_box(Method::RecursiveCut.order(mesh));
         let ours = start.elapsed().as_secs_f64();
         rows.push(vec![
             name.clone(),
@@ -221,10 +204,7 @@ fn table_1(found: &[Found]) -> Figure {
     };
 
     let ([vertices, _], seconds) = REGULAR_32;
-    let regular = grid_mesh(Grid {
-        columns: 32,
-        rows: 16,
-    });
+    let (regular, _) = grid_orders(32, 16, 10);
     push("Regular32".to_owned(), vertices, &regular, seconds);
     for it in found {
         push(it.name(), it.printed.size[0], &it.mesh, it.printed.seconds);
@@ -255,9 +235,9 @@ fn table_2(found: &[Found]) -> Figure {
             continue;
         };
         let in_file = fifo(it.mesh.faces(), 10);
-        let our_cut = fifo(&recursive_cut(&it.mesh), 10);
+        let our_cut = fifo(&ordered(Method::RecursiveCut, &it.mesh), 10);
         let universal = [Effort::Fast, Effort::Best]
-            .map(|effort| fifo(&universal(&it.mesh, effort).apply(it.mesh.faces()), 10));
+            .map(|effort| fifo(&ordered(Method::Universal { effort }, &it.mesh), 10));
 
         let numbers = [original, in_file, cut, our_cut, strips];
         rows.push(cells(it.name(), numbers.into_iter().chain(universal)));
@@ -285,10 +265,10 @@ fn universality(meshes: &[Mesh]) -> Figure {
         "", "K=10", "12", "16", "24", "32", "64", "mean", "NVIDIA", "AMD", "Intel",
     ])];
     let mut json = Vec::new();
-    for method in &METHODS {
+    for method in Method::SHOWN {
         let mut figures = [0.0; Target::UNIVERSAL.len()];
         for mesh in meshes {
-            let faces = (method.order)(mesh).apply(mesh.faces());
+            let faces = ordered(method, mesh);
             for (sum, model) in figures.iter_mut().zip(Target::UNIVERSAL) {
                 let figure = match model {
                     CacheModel::Batch(_) => cache::atvr(&faces, model),
@@ -300,8 +280,11 @@ fn universality(meshes: &[Mesh]) -> Figure {
 
         let (acmr, atvr) = figures.split_at(6);
         let numbers = acmr.iter().copied().chain([mean(acmr.iter().copied())]);
-        rows.push(cells(method.name, numbers.chain(atvr.iter().copied())));
-        json.push(json!({"method": method.name, "acmr": acmr, "atvr": atvr}));
+        rows.push(cells(
+            method.to_string(),
+            numbers.chain(atvr.iter().copied()),
+        ));
+        json.push(json!({"method": method.to_string(), "acmr": acmr, "atvr": atvr}));
     }
 
     let models = Target::UNIVERSAL.map(|model| model.to_string());

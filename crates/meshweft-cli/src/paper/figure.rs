@@ -7,7 +7,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Map, Value, json};
 
 use crate::columns::columns;
-use crate::count::ratio;
 use crate::run::output::Report;
 
 /// One figure as text and as JSON.
@@ -59,10 +58,10 @@ pub(super) fn head(names: &[&str]) -> Vec<String> {
 
 /// The mean, 0 of nothing.
 pub(super) fn mean(numbers: impl IntoIterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0);
+    let (mut sum, mut count) = (0.0, 0.0_f64);
     for x in numbers {
         sum += x;
-        count += 1;
+        count += 1.0;
     }
-    ratio(sum, count)
+    sum / count.max(1.0)
 }

@@ -8,8 +8,8 @@ use meshweft::files::ReadOptions;
 
 use super::inputs::Shard;
 
-/// Most threads or jobs: above the cores of most machines, well below what a system cannot start.
-const MOST_THREADS: usize = 1024;
+/// Most threads of a run, so also most jobs: above the cores of most machines, far fewer than a system can start.
+pub(super) const MOST_THREADS: usize = 1024;
 
 // No doc comments on groups of flags: clap would take them for the text about a verb.
 #[derive(Debug, Args)]
@@ -27,7 +27,7 @@ pub(crate) struct Run {
     /// Go on with the next file when one fails
     #[arg(long, display_order = 100)]
     pub(crate) keep_going: bool,
-    /// Files to work on at once [default: as many as there are cores]
+    /// Files to work on at once [default: the cores, shared by --threads]
     #[arg(long, value_name = "N", display_order = 101, value_parser = thread_count)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Threads for the meshes of one file, large ones in parts; the output is the same for any

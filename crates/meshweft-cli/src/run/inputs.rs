@@ -12,7 +12,7 @@ use crate::usage::Usage;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Input {
     pub(crate) path: PathBuf,
-    /// Its path below what was named, which an output folder repeats.
+    /// Path relative to the named folder, recreated under the output.
     pub(crate) relative: PathBuf,
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn expand(names: &[PathBuf], except: Option<&Path>) -> Result<Vec<Inp
 
         if inputs.len() == before {
             let name = name.display();
-            return Err(Usage(format!("{name}: no mesh file is there")).into());
+            return Err(Usage(format!("{name}: no mesh file found")).into());
         }
     }
 

@@ -7,9 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use anyhow::{Context, Result};
+use meshweft::operations::SCHEMA;
 use serde_json::{Value, json};
-
-use super::output::SCHEMA;
 
 /// A file of JSON lines, one for each finished input.
 pub(super) struct Manifest {
@@ -69,7 +68,7 @@ impl Manifest {
         &self,
         input: &Path,
         output: &Path,
-        result: &Result<Value, String>,
+        result: Result<&str, String>,
     ) -> Result<()> {
         let mut line = json!({
             "schema": SCHEMA,
@@ -79,11 +78,11 @@ impl Manifest {
         match result {
             Ok(total) => {
                 line["status"] = "done".into();
-                line["total"] = total.clone();
+                line["total"] = serde_json::from_str(total)?;
             }
             Err(error) => {
                 line["status"] = "failed".into();
-                line["error"] = error.as_str().into();
+                line["error"] = error.into();
             }
         }
 

@@ -10,7 +10,9 @@ pub(crate) mod inputs;
 mod interrupt;
 pub(crate) mod jobs;
 mod manifest;
+pub(crate) mod ordering;
 pub(crate) mod output;
+pub(crate) mod watch;
 mod workers;
 pub(crate) mod write;
 
@@ -29,14 +31,15 @@ use workers::Workers;
 
 /// What there is to say about a file.
 pub(crate) struct Outcome {
-    /// The members of its report; `total` is what the manifest keeps.
-    pub(crate) json: Value,
+    /// Its report, one line of JSON.
+    pub(crate) json: String,
+    /// What the manifest keeps of it, as JSON.
+    pub(crate) total: String,
     pub(crate) text: String,
     pub(crate) notes: Vec<String>,
 }
 
-/// Does `work` on the file of each job, in threads of the file's own, and reports on it as the
-/// doing of `verb`.
+/// Does `work` on the file of each job, on its own thread pool, and reports it under `verb`.
 ///
 /// The first failure is returned.
 pub(crate) fn over_files(
@@ -47,7 +50,7 @@ pub(crate) fn over_files(
     work: impl Fn(&Job) -> Result<Outcome> + Sync,
 ) -> Result<()> {
     let manifest = run.manifest.as_deref().map(Manifest::open).transpose()?;
-    let workers = Workers::new(run, jobs.len());
+    let workers = Workers::new(run, jobs.len())?;
     if !run.dry_run {
         prepare_to_write(jobs);
     }
@@ -56,7 +59,7 @@ pub(crate) fn over_files(
         let job = &jobs[index];
         let earlier = manifest.as_ref();
         if earlier.is_some_and(|manifest| manifest.has(&job.input, &job.target)) {
-            return Ok(done_before(job));
+            return Ok(done_before(verb, job));
         }
         let done = workers.threads()?.install(|| work(job));
         if let (Some(manifest), false) = (&manifest, run.dry_run) {
@@ -71,7 +74,7 @@ pub(crate) fn over_files(
         bar.inc(1);
         bar.suspend(|| match result {
             Ok(outcome) => {
-                report.json(verb, &outcome.json)?;
+                report.json_line(&outcome.json)?;
                 report.text(&outcome.text)?;
                 Ok(report.notes(&outcome.notes)?)
             }
@@ -103,11 +106,15 @@ fn prepare_to_write(jobs: &[Job]) {
 }
 
 /// What there is to say about a file that an earlier run did.
-fn done_before(job: &Job) -> Outcome {
+fn done_before(verb: &str, job: &Job) -> Outcome {
     let [file, output] = [&job.input, &job.target].map(|path| path.display().to_string());
     Outcome {
         text: format!("{file}\n  done before: {output}"),
-        json: json!({"file": file, "output": output, "done_before": true}),
+        json: output::headed(
+            verb,
+            &json!({"file": file, "output": output, "done_before": true}),
+        ),
+        total: Value::Null.to_string(),
         notes: Vec::new(),
     }
 }
@@ -115,6 +122,6 @@ fn done_before(job: &Job) -> Outcome {
 /// Adds a finished job to the manifest.
 fn list(manifest: &Manifest, job: &Job, done: &Result<Outcome>) -> Result<()> {
     let _whole = interrupt::hold_off();
-    let total = done.as_ref().map(|outcome| outcome.json["total"].clone());
-    manifest.add(&job.input, &job.target, &total.map_err(usage::message))
+    let total = done.as_ref().map(|outcome| outcome.total.as_str());
+    manifest.add(&job.input, &job.target, total.map_err(usage::message))
 }

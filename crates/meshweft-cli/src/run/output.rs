@@ -1,15 +1,14 @@
 //! Where text and JSON go.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use anyhow::Error;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use meshweft::files::{Document, Note, Place};
+use meshweft::files::{Note, Place};
+use meshweft::operations::SCHEMA;
 use serde_json::{Map, Value, json};
-
-/// The version of what is printed and listed as JSON.
-pub(super) const SCHEMA: u32 = 1;
 
 // No doc comment: clap would take it for the text about a verb.
 #[derive(Debug, Args)]
@@ -24,13 +23,22 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    /// Prints the report of a verb, an object with these members, on a line of standard output, if
-    /// JSON was asked for.
-    pub(crate) fn json(&self, verb: &str, members: &Value) -> io::Result<()> {
+    /// Prints a report of the library, one line of JSON, on standard output, if JSON was asked for.
+    pub(crate) fn json_line(&self, line: &str) -> io::Result<()> {
         match self.json {
-            true => writeln!(io::stdout().lock(), "{}", headed(verb, members)),
+            true => writeln!(io::stdout().lock(), "{line}"),
             false => Ok(()),
         }
+    }
+
+    /// Prints a report of the program's own, an object with these members.
+    pub(crate) fn json(&self, verb: &str, members: &Value) -> io::Result<()> {
+        self.json_line(&headed(verb, members))
+    }
+
+    /// Whether people may be told how far it is.
+    pub(crate) fn shows_progress(&self) -> bool {
+        !self.quiet
     }
 
     /// Prints text for people: on standard output, or on standard error if JSON goes there.
@@ -54,29 +62,30 @@ impl Report {
     }
 }
 
-/// The members of a report after those that every report begins with.
-fn headed(verb: &str, members: &Value) -> Value {
+/// The members of a report after those that every report begins with, as one line of JSON.
+pub(super) fn headed(verb: &str, members: &Value) -> String {
     let mut report = Map::new();
     report.insert("schema".into(), json!(SCHEMA));
     report.insert("command".into(), json!(verb));
+    report.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));
     report.extend(members.as_object().cloned().unwrap_or_default());
-    Value::Object(report)
+    Value::Object(report).to_string()
 }
 
 /// What a file's reader leaves as it is, a line each.
-pub(crate) fn note_lines(document: &Document) -> Vec<String> {
+pub(crate) fn note_lines(file: &Path, notes: &[Note]) -> Vec<String> {
     let line = |note: &Note| {
-        let place = match place(&note.place) {
-            place if place.is_empty() => place,
-            place => format!("{place}: "),
+        let place = match note.place {
+            Place::File => String::new(),
+            _ => format!("{}: ", note.place),
         };
         let more = match note.more {
             0 => String::new(),
             more => format!(" (and {more} more like it)"),
         };
-        format!("{}: {place}{}{more}", document.path().display(), note.text)
+        format!("{}: {place}{}{more}", file.display(), note.text)
     };
-    document.notes().iter().map(line).collect()
+    notes.iter().map(line).collect()
 }
 
 /// A bar for work on several files, on standard error if that is a terminal.
@@ -89,23 +98,6 @@ pub(crate) fn progress(files: usize, report: &Report) -> ProgressBar {
     bar.with_style(
         ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
     )
-}
-
-/// The notes of a document as JSON.
-pub(crate) fn notes_json(document: &Document) -> Value {
-    let notes = document.notes().iter();
-    notes
-        .map(|note| json!({"place": place(&note.place), "text": note.text, "more": note.more}))
-        .collect()
-}
-
-fn place(place: &Place) -> String {
-    match place {
-        Place::Line(line) => format!("line {line}"),
-        Place::Byte(byte) => format!("byte {byte}"),
-        Place::Json(pointer) => pointer.clone(),
-        _ => String::new(),
-    }
 }
 
 /// Whether whoever read our output has gone: not an error, and nobody is left to tell.

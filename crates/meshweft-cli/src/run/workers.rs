@@ -3,7 +3,8 @@
 use anyhow::{Context, Result};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::arguments::Run;
+use super::arguments::{MOST_THREADS, Run};
+use crate::usage::Usage;
 
 /// How many threads do what.
 pub(super) struct Workers {
@@ -15,11 +16,23 @@ pub(super) struct Workers {
 
 impl Workers {
     /// What was asked for, or the cores shared out.
-    pub(super) fn new(run: &Run, files: usize) -> Self {
+    ///
+    /// # Errors
+    /// More threads for all jobs together than a system starts.
+    pub(super) fn new(run: &Run, files: usize) -> Result<Self, Usage> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let jobs = run.jobs.map_or(cores, usize::from).min(files.max(1));
+        let cores = cores.min(MOST_THREADS);
+        let asked_threads = run.threads.map_or(1, usize::from);
+        let jobs = run.jobs.map_or((cores / asked_threads).max(1), usize::from);
+        let jobs = jobs.min(files.max(1));
         let threads = run.threads.map_or(cores.div_ceil(jobs), usize::from);
-        Self { jobs, threads }
+        match jobs * threads <= MOST_THREADS {
+            true => Ok(Self { jobs, threads }),
+            false => Err(Usage(format!(
+                "{jobs} jobs of {threads} threads each are more than {MOST_THREADS} threads: ask for \
+                 fewer --jobs or --threads"
+            ))),
+        }
     }
 
     /// The threads for a file.

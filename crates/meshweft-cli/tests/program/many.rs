@@ -144,7 +144,17 @@ fn the_output_is_the_same_on_any_number_of_threads() {
             .iter()
             .map(|f| folder.read(&format!("out/{f}")))
             .collect();
-        outputs.push((run.out(), bytes));
+        // All of the reports but the time that the work took.
+        let reports: Vec<Value> = run
+            .out()
+            .lines()
+            .map(|line| {
+                let mut report: Value = serde_json::from_str(line).unwrap();
+                assert!(report["seconds"].take().as_f64() > Some(0.0));
+                report
+            })
+            .collect();
+        outputs.push((reports, bytes));
     }
     assert!(outputs.windows(2).all(|pair| pair[0] == pair[1]));
 }
@@ -165,6 +175,11 @@ fn more_threads_than_a_system_starts_are_refused() {
         let run = folder.run(&["optimize", "in/1.obj", "-o", "most.obj", flag, "1024"]);
         assert_eq!(run.code(), 0, "{}", run.err());
     }
+    let both = ["--jobs", "2", "--threads", "1000"];
+    let run = folder.run(&[&["optimize", "in", "-o", "out"], &both[..]].concat());
+    assert_eq!(run.code(), 2, "{}", run.err());
+    let says = "2 jobs of 1000 threads each are more than 1024 threads";
+    assert!(run.err().contains(says), "{}", run.err());
 }
 
 #[test]

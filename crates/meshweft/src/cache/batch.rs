@@ -1,9 +1,8 @@
-//! GPUs that gather faces in batches and forget all vertices between them.
+//! GPUs that collect faces in batches and forget all vertices between batches.
 //!
 //! Kerbl, Kenzel, Ivanchenko, Schmalstieg, Steinberger: *Revisiting the vertex cache*, 2018,
 //! doi:10.1145/3233302, measured that no vendor keeps one global cache. The three settings are
-//! those of meshoptimizer's analyzer, so that figures can be compared with the many that were
-//! made with it.
+//! those of meshoptimizer's analyzer, so that figures can be compared with those made by it.
 
 use super::fifo::Fifo;
 use super::model::BatchModel;
@@ -13,7 +12,9 @@ use super::model::BatchModel;
 pub(crate) struct Batches {
     model: BatchModel,
     cache: Fifo,
+    /// Misses in the current batch.
     vertices: u32,
+    /// Faces in the current batch.
     faces: u32,
 }
 
@@ -27,10 +28,10 @@ impl Batches {
         }
     }
 
-    /// Which corners of a face will miss if it is drawn next.
+    /// Which corners of a face miss if it is drawn next.
     ///
-    /// Whether the face still fits is decided from the state before it, corner by corner, so a
-    /// vertex that a degenerate face names twice counts twice for that decision.
+    /// Whether the face fits is decided from the state before it, corner by corner. So a vertex
+    /// that a degenerate face names twice counts twice in that decision.
     pub(super) fn missing(&self, face: [u32; 3]) -> [bool; 3] {
         let missing = face.map(|v| !self.cache.contains(v));
         match self.is_full(missing.map(u32::from).iter().sum()) {
@@ -39,7 +40,7 @@ impl Batches {
         }
     }
 
-    /// Whether a face with so many misses starts a new batch.
+    /// Whether a face with `misses` misses starts a new batch.
     fn is_full(&self, misses: u32) -> bool {
         let (batch_vertices, batch_faces) = (self.model.batch_vertices(), self.model.batch_faces());
         let faces_full = batch_faces != 0 && self.faces == batch_faces;
@@ -47,7 +48,7 @@ impl Batches {
         faces_full || vertices_full
     }
 
-    /// Draws a face; how many of its corners missed.
+    /// Draws a face; returns how many of its corners missed.
     pub(super) fn draw(&mut self, face: [u32; 3]) -> u8 {
         let absent = |&&v: &&u32| !self.cache.contains(v);
         let needed: u32 = face.iter().filter(absent).map(|_| 1).sum();

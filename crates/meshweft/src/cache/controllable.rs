@@ -1,10 +1,11 @@
 //! A cache whose evictions the program decides: schedules, and the best schedule for an order.
 //!
-//! Counted in two ways. *Scheduled*: the pushes of an explicit schedule, as an algorithm emits it
-//! while it does not know the future. *Belady*: the fewest pushes that any schedule needs for a
-//! given face order (L. A. Belady, *A study of replacement algorithms for a virtual-storage
-//! computer*, 1966, doi:10.1147/sj.52.0078): evict the vertex that is needed last, never one of
-//! the face being drawn, whose three vertices must be there together. Belady ≤ scheduled always.
+//! Misses are counted in two ways. *Scheduled*: the pushes of an explicit schedule, which an
+//! algorithm writes without knowing the future. *Belady*: the fewest pushes that any schedule needs
+//! for a given face order (L. A. Belady, *A study of replacement algorithms for a virtual-storage
+//! computer*, 1966, doi:10.1147/sj.52.0078): evict the vertex that is needed last, never one of the
+//! face being drawn, whose three vertices must be in the cache together. Belady is never more than
+//! scheduled.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -14,10 +15,11 @@ use crate::faces::Faces;
 use crate::index::index32;
 use crate::topology::distinct;
 
-/// Never needed again.
+/// The next use of a vertex that is not needed again.
 const NEVER: u32 = u32::MAX;
 
-/// Calls `visit(face number, misses)` for each face under the best schedule.
+/// Draws the faces by the best schedule: calls `visit(face number, misses)` for each face, and
+/// `record` for each step.
 ///
 /// Time O(faces · log size), space 12 bytes a face, 8 a vertex and the buffer.
 pub(super) fn belady(
@@ -26,9 +28,9 @@ pub(super) fn belady(
     mut visit: impl FnMut(usize, u8),
     mut record: impl FnMut(CacheEvent),
 ) {
-    let (faces, vertex_count) = (faces.corners(), faces.vertex_count());
+    let (faces, vertex_count) = (faces.as_slice(), faces.vertex_count());
 
-    // Next face after this one that names the same vertex, corner by corner.
+    // For each corner, the next face that names the same vertex.
     let mut next_use = vec![[NEVER; 3]; faces.len()];
     let mut coming = vec![NEVER; vertex_count];
     for (number, face) in faces.iter().enumerate().rev() {
@@ -38,7 +40,7 @@ pub(super) fn belady(
         }
     }
 
-    // The buffer, sorted by next use; `coming` now holds the key of each vertex in it.
+    // The buffer, sorted by next use.
     let mut buffer: BTreeSet<(u32, u32)> = BTreeSet::new();
     for (number, &face) in faces.iter().enumerate() {
         let (mut missed, mut misses) = (0_u8, [0; 3]);
@@ -50,6 +52,8 @@ pub(super) fn belady(
                 missed += 1;
             }
         }
+
+        // Make room: what is needed last leaves first.
         let kept = distinct(face).count();
         while buffer.len() + kept > size as usize {
             let Some((_, vertex)) = buffer.pop_last() else {
@@ -57,10 +61,13 @@ pub(super) fn belady(
             };
             record(CacheEvent::Pop(vertex));
         }
+
         for &vertex in &misses[..usize::from(missed)] {
             record(CacheEvent::Push(vertex));
         }
         record(CacheEvent::Draw);
+
+        // Back in the buffer, with the next use of each.
         for (vertex, next) in face.into_iter().zip(next_use[number]) {
             buffer.insert((next, vertex));
         }
@@ -75,11 +82,11 @@ pub enum CacheEvent {
     Pop(u32),
     /// The vertex is transformed and enters the cache: a miss.
     Push(u32),
-    /// The next face of the order is drawn; its vertices are all in the cache.
+    /// The next face of the order is drawn; all its vertices are in the cache.
     Draw,
 }
 
-/// What a controllable cache is told to do while a face order is drawn.
+/// The steps of a controllable cache while a face order is drawn.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Schedule {
     /// The steps in order.
@@ -117,16 +124,19 @@ impl Schedule {
         self.events.iter().filter(is_push).count() as u64
     }
 
-    /// Plays the schedule against the faces, in the order in which it draws them.
-    ///
-    /// Returns the number of pushes.
+    /// The number of pushes, after checking the schedule by playing it; `faces` are in the order in
+    /// which it draws them.
     ///
     /// # Errors
     /// [`ScheduleError`] at the first step that a cache of `size` entries cannot do.
+    ///
+    /// # Complexity
+    /// Time O(steps · log size), space O(size).
     pub fn play<'a>(&self, faces: impl Into<Faces<'a>>, size: u32) -> Result<u64, ScheduleError> {
-        let faces = faces.into().corners();
+        let faces = faces.into().as_slice();
         let mut buffer = BTreeSet::new();
         let mut drawn = 0;
+
         for (step, &event) in self.events.iter().enumerate() {
             let problem = match event {
                 CacheEvent::Pop(vertex) if !buffer.remove(&vertex) => "pops an absent vertex",
@@ -146,6 +156,7 @@ impl Schedule {
             };
             return Err(ScheduleError { step, problem });
         }
+
         if drawn < faces.len() {
             return Err(ScheduleError {
                 step: self.events.len(),
@@ -161,7 +172,7 @@ impl Schedule {
 pub struct ScheduleError {
     /// Number of the step, from 0.
     pub step: usize,
-    /// What it does wrong.
+    /// What it does wrong, to be read after "the schedule".
     pub problem: &'static str,
 }
 
@@ -176,10 +187,13 @@ impl std::error::Error for ScheduleError {}
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix64;
 
     /// The fewest pushes over all schedules, by trying every set of survivors.
     fn fewest_pushes(faces: &[[u32; 3]], size: usize) -> u32 {
         use std::collections::BTreeMap;
+
+        // For each set of vertices that may be in the cache, as bits, the fewest pushes so far.
         let mut states: BTreeMap<u32, u32> = BTreeMap::from([(0, 0)]);
         for face in faces {
             let needed = face.iter().fold(0_u32, |set, &v| set | 1 << v);
@@ -187,6 +201,7 @@ mod tests {
             for (&held, &pushes) in &states {
                 let cost = pushes + (needed & !held).count_ones();
                 let full = held | needed;
+
                 // Every subset of the present vertices that keeps the face and fits.
                 let mut kept = full;
                 loop {
@@ -207,11 +222,8 @@ mod tests {
 
     #[test]
     fn belady_is_the_minimum_over_all_schedules() {
-        let mut state = 7_u32;
-        let mut random = |below: u32| {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 16) % below
-        };
+        let mut numbers = SplitMix64(7);
+        let mut random = |limit: usize| index32(numbers.below(limit));
         for round in 0..60 {
             let faces: Vec<[u32; 3]> = (0..10).map(|_| [random(8), random(8), random(8)]).collect();
             for size in 3..6 {

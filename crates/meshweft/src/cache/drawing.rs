@@ -1,4 +1,4 @@
-//! A vertex cache of any kind that the program does not control, face by face.
+//! Drawing faces with any kind of vertex cache that the program does not control.
 
 use super::batch::Batches;
 use super::fifo::Fifo;
@@ -24,7 +24,7 @@ impl Drawing {
         }
     }
 
-    /// Which corners of a face are not there as it starts.
+    /// Which corners of a face are not in the cache before it is drawn.
     pub(crate) fn missing(&self, face: [u32; 3]) -> [bool; 3] {
         match self {
             Self::Fifo(cache) => face.map(|v| !cache.contains(v)),
@@ -33,12 +33,36 @@ impl Drawing {
         }
     }
 
-    /// Draws a face; how many of its corners missed.
+    /// Draws faces one after the other; calls `visit` with the number of each and how many of its
+    /// corners missed.
+    pub(crate) fn draw_all(&mut self, faces: &[[u32; 3]], mut visit: impl FnMut(usize, u8)) {
+        // A loop of its own for each kind, so the kind is matched once, not per face.
+        let numbered = faces.iter().enumerate();
+        match self {
+            Self::Fifo(cache) => {
+                numbered.for_each(|(number, face)| visit(number, misses(face, |v| cache.miss(v))))
+            }
+            Self::Lru(cache) => {
+                numbered.for_each(|(number, face)| visit(number, misses(face, |v| cache.miss(v))))
+            }
+            Self::Batches(cache) => {
+                numbered.for_each(|(number, &face)| visit(number, cache.draw(face)));
+            }
+        }
+    }
+
+    /// Draws a face; returns how many of its corners missed.
     pub(crate) fn draw(&mut self, face: [u32; 3]) -> u8 {
         match self {
-            Self::Fifo(cache) => face.map(|v| u8::from(cache.miss(v))).iter().sum(),
-            Self::Lru(cache) => face.map(|v| u8::from(cache.miss(v))).iter().sum(),
+            Self::Fifo(cache) => misses(&face, |v| cache.miss(v)),
+            Self::Lru(cache) => misses(&face, |v| cache.miss(v)),
             Self::Batches(cache) => cache.draw(face),
         }
     }
+}
+
+/// How many corners miss, when used one after the other.
+#[inline]
+fn misses(face: &[u32; 3], mut miss: impl FnMut(u32) -> bool) -> u8 {
+    face.map(|v| u8::from(miss(v))).iter().sum()
 }

@@ -23,13 +23,14 @@ impl Fifo {
         self.age(vertex) <= self.size
     }
 
-    /// Pushes since `vertex` was pushed last, itself included; above the size if it is not there.
+    /// Pushes since the last push of `vertex`, itself included; more than the size if it is not in
+    /// the cache.
     #[inline]
     pub(crate) fn age(&self, vertex: u32) -> u64 {
         self.clock - self.entered[vertex as usize]
     }
 
-    /// Uses `vertex`, pushing it if it is not there; whether it missed.
+    /// Uses `vertex` and pushes it if it is not in the cache; returns whether it missed.
     #[inline]
     pub(crate) fn miss(&mut self, vertex: u32) -> bool {
         let missed = !self.contains(vertex);

@@ -2,7 +2,7 @@
 
 const NONE: u32 = u32::MAX;
 
-/// An LRU cache over numbered vertices; every use is O(1) whatever the size.
+/// An LRU cache over numbered vertices; every use is O(1) for any size.
 #[derive(Debug, Clone)]
 pub(crate) struct Lru {
     size: u32,
@@ -39,7 +39,7 @@ impl Lru {
         self.links[vertex as usize].present
     }
 
-    /// Uses `vertex`, making it the newest; whether it missed.
+    /// Uses `vertex` and makes it the newest; returns whether it missed.
     pub(crate) fn miss(&mut self, vertex: u32) -> bool {
         let present = self.links[vertex as usize].present;
         if present {
@@ -47,6 +47,7 @@ impl Lru {
         } else if self.len == self.size {
             self.unlink(self.oldest);
         }
+
         let older = self.newest;
         self.links[vertex as usize] = Link {
             newer: NONE,
@@ -80,6 +81,8 @@ impl Lru {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::index::index32;
+    use crate::random::SplitMix64;
 
     /// The definition, as a list whose front is the newest.
     fn plain_misses(size: usize, uses: &[u32]) -> Vec<bool> {
@@ -99,13 +102,8 @@ mod tests {
 
     #[test]
     fn the_linked_list_is_the_plain_list() {
-        let mut state = 1_u32;
-        let uses: Vec<u32> = (0..5000)
-            .map(|_| {
-                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                (state >> 16) % 23
-            })
-            .collect();
+        let mut numbers = SplitMix64(1);
+        let uses: Vec<u32> = (0..5000).map(|_| index32(numbers.below(23))).collect();
         for size in [3, 7, 22, 23, 40] {
             let mut lru = Lru::new(size, 23);
             let missed: Vec<bool> = uses.iter().map(|&v| lru.miss(v)).collect();

@@ -1,4 +1,4 @@
-//! Counting misses: one replay serves every metric.
+//! Counting misses: every metric is computed from one replay.
 
 use super::controllable::belady;
 use super::drawing::Drawing;
@@ -6,26 +6,23 @@ use super::model::CacheModel;
 use crate::faces::Faces;
 
 /// Calls `visit(face number, misses)` for each face in order.
-fn replay(faces: Faces<'_>, model: CacheModel, mut visit: impl FnMut(usize, u8)) {
+fn replay(faces: Faces<'_>, model: CacheModel, visit: impl FnMut(usize, u8)) {
     match Drawing::new(model, faces.vertex_count()) {
-        Some(mut cache) => {
-            for (number, &face) in faces.corners().iter().enumerate() {
-                visit(number, cache.draw(face));
-            }
-        }
+        Some(mut cache) => cache.draw_all(faces.as_slice(), visit),
         None => belady(faces, model.size(), visit, |_| {}),
     }
 }
 
-fn used_vertices(faces: Faces<'_>) -> usize {
+/// How many vertices some face names.
+pub(crate) fn used_vertices(faces: Faces<'_>) -> usize {
     let mut used = vec![false; faces.vertex_count()];
-    for &v in faces.corners().iter().flatten() {
+    for &v in faces.as_slice().iter().flatten() {
         used[v as usize] = true;
     }
     used.into_iter().filter(|&u| u).count()
 }
 
-/// What one cache model counts on one face order.
+/// The counts of one cache model on one face order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct CacheReport {
@@ -33,7 +30,7 @@ pub struct CacheReport {
     pub misses: u64,
     /// Faces drawn.
     pub faces: usize,
-    /// Vertices that some face names.
+    /// Vertices that at least one face names.
     pub used_vertices: usize,
 }
 
@@ -51,15 +48,15 @@ impl CacheReport {
     }
 }
 
-fn ratio(count: u64, of: usize) -> f64 {
-    if of == 0 {
-        0.0
-    } else {
-        count as f64 / of as f64
+/// `count / of`, 0 where there is nothing.
+pub(crate) fn ratio(count: u64, of: usize) -> f64 {
+    match of {
+        0 => 0.0,
+        _ => count as f64 / of as f64,
     }
 }
 
-/// Misses, faces and used vertices of this order under this cache.
+/// Misses, faces and used vertices of this face order with this cache.
 ///
 /// # Complexity
 /// Time O(faces), for a controllable cache O(faces · log size); space O(vertices), for a
@@ -120,10 +117,10 @@ pub fn atvr<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> f64 {
     report(faces, model).atvr()
 }
 
-/// How many corners of each face missed, 0 to 3: what a heat map shows.
+/// How many corners of each face missed, 0 to 3, as for a heat map.
 ///
 /// # Complexity
-/// As [`report`], and one byte a face.
+/// As [`report`], plus one byte a face.
 #[must_use]
 pub fn misses_per_face<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> Vec<u8> {
     let faces = faces.into();
@@ -138,7 +135,7 @@ pub fn misses_per_face<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> Ve
 /// cache of 128 KiB, the model of meshoptimizer's analyzer, and every index fetches its record.
 ///
 /// # Panics
-/// If `vertex_size` is 0.
+/// If `vertex_size` is 0 or more than 4 GiB.
 ///
 /// # Complexity
 /// Time O(faces · `vertex_size` / 64), space O(vertices).
@@ -147,14 +144,18 @@ pub fn overfetch<'a>(faces: impl Into<Faces<'a>>, vertex_size: usize) -> f64 {
     let faces = faces.into();
     const LINE: u64 = 64;
     const LINES: usize = 2048;
-    assert!(vertex_size > 0, "a vertex record has at least one byte");
+    assert!(
+        u32::try_from(vertex_size).is_ok_and(|size| size > 0),
+        "a vertex record has at least one byte and less than 4 GiB"
+    );
+
     let mut cached = [0_u64; LINES];
     let mut fetched = 0;
     let size = vertex_size as u64;
-    for &vertex in faces.corners().iter().flatten() {
+    for &vertex in faces.as_slice().iter().flatten() {
         let start = u64::from(vertex) * size;
         for line in start / LINE..(start + size).div_ceil(LINE) {
-            // Lines are stored plus one: zero is "nothing yet".
+            // The number of the line plus one; 0 is an empty slot.
             let slot = &mut cached[usize::try_from(line % LINES as u64).unwrap_or(0)];
             if *slot != line + 1 {
                 *slot = line + 1;
@@ -162,7 +163,11 @@ pub fn overfetch<'a>(faces: impl Into<Faces<'a>>, vertex_size: usize) -> f64 {
             }
         }
     }
-    ratio(fetched, used_vertices(faces) * vertex_size)
+    let stored = used_vertices(faces) as u64 * size;
+    match stored {
+        0 => 0.0,
+        _ => fetched as f64 / stored as f64,
+    }
 }
 
 #[cfg(test)]

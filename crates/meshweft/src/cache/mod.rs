@@ -1,10 +1,10 @@
 //! What a vertex cache does, and how often an order misses it.
 //!
-//! A GPU keeps the vertices that it transformed last. Drawing a face whose vertex is still kept is
-//! free; a *miss* transforms (and fetches) it again. Four kinds of cache are modelled: first-in
-//! first-out (fixed-function hardware), least recently used, *controllable* (the program decides
-//! who leaves; Lin & Yu 2006, doi:10.1109/TVCG.2006.59) and today's GPUs, which gather faces in
-//! batches. Read [`CacheModel`] first, then [`report`].
+//! A GPU keeps the vertices that it transformed last. A vertex that is still kept costs nothing
+//! when a face is drawn; a *miss* transforms (and fetches) it again. Four kinds of cache are
+//! modelled: first-in first-out (fixed-function hardware), least recently used, *controllable* (the
+//! program decides which vertex leaves; Lin & Yu 2006, doi:10.1109/TVCG.2006.59) and today's GPUs,
+//! which collect faces in batches. Read [`CacheModel`] first, then [`report`].
 //!
 //! | metric | is |
 //! |---|---|
@@ -24,4 +24,5 @@ pub use controllable::{CacheEvent, Schedule, ScheduleError};
 pub(crate) use drawing::Drawing;
 pub(crate) use fifo::Fifo;
 pub use metrics::{CacheReport, acmr, atvr, misses, misses_per_face, overfetch, report};
+pub(crate) use metrics::{ratio, used_vertices};
 pub use model::{BatchModel, CacheModel, MAX_CACHE_SIZE, MIN_CACHE_SIZE, ParseCacheModelError};

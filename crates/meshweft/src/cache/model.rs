@@ -1,4 +1,4 @@
-//! Which caches there are, as values and as text.
+//! The cache models, as values and as text.
 
 use std::fmt;
 use std::str::FromStr;
@@ -24,11 +24,11 @@ impl BatchModel {
     /// 128 entries, no batches.
     pub const INTEL: Self = Self::new(128, 0, 0);
 
-    /// A FIFO cache of `cache_size` vertices, emptied before a face with which the batch would
-    /// have more than `batch_vertices` misses or `batch_faces` faces; 0 for no limit.
+    /// A FIFO cache of `cache_size` vertices that is emptied before a face that would bring the
+    /// batch to more than `batch_vertices` misses or `batch_faces` faces; 0 for no limit.
     ///
     /// # Panics
-    /// If the cache size or the limit of vertices is below 3: no face fits.
+    /// If the cache size, or a limit of vertices other than 0, is below 3: no face fits.
     #[must_use]
     pub const fn new(cache_size: u32, batch_vertices: u32, batch_faces: u32) -> Self {
         assert!(cache_size >= MIN_CACHE_SIZE, "a face needs three entries");
@@ -67,7 +67,7 @@ impl BatchModel {
 /// Written and read as `fifo:16`, `lru:32`, `controllable:12`, `nvidia`, `amd`, `intel`, and other
 /// batches as `batch:20/0/9`: cache size, most vertices and most faces in a batch.
 ///
-/// Made by its constructors, which refuse a cache in which no face can be drawn; matched with `..`.
+/// Make one by a constructor, which refuses a cache in which no face can be drawn. Match with `..`.
 ///
 /// ```
 /// use meshweft::CacheModel;
@@ -88,29 +88,29 @@ pub enum CacheModel {
         /// Cache size in vertices, at least [`MIN_CACHE_SIZE`].
         size: u32,
     },
-    /// The vertex that was used longest ago leaves first.
+    /// The least recently used vertex leaves first.
     #[non_exhaustive]
     Lru {
         /// Cache size in vertices, at least [`MIN_CACHE_SIZE`].
         size: u32,
     },
-    /// The program decides who leaves. A face order alone is counted with the best schedule there
-    /// is for it (Belady: the vertex needed last leaves, never one of the face being drawn).
+    /// The program decides which vertex leaves. A face order alone is counted with its best
+    /// schedule (Belady: the vertex needed last leaves, never one of the face being drawn).
     #[non_exhaustive]
     Controllable {
         /// Cache size in vertices, at least [`MIN_CACHE_SIZE`].
         size: u32,
     },
-    /// A GPU that gathers faces in batches and starts each with an empty cache.
+    /// A GPU that collects faces in batches and starts each with an empty cache.
     Batch(BatchModel),
 }
 
 impl CacheModel {
     /// NVIDIA's batches as meshoptimizer's analyzer sets them: 32 entries, 32 vertices, 32 faces.
     pub const NVIDIA: Self = Self::Batch(BatchModel::NVIDIA);
-    /// AMD's batches likewise: 14 entries, 64 vertices, 128 faces.
+    /// AMD's batches in the same analyzer: 14 entries, 64 vertices, 128 faces.
     pub const AMD: Self = Self::Batch(BatchModel::AMD);
-    /// Intel's likewise: 128 entries, no batches.
+    /// Intel's cache in the same analyzer: 128 entries, no batches.
     pub const INTEL: Self = Self::Batch(BatchModel::INTEL);
 
     /// A first-in first-out cache.
@@ -220,14 +220,14 @@ impl FromStr for CacheModel {
     }
 }
 
-/// A number in digits alone, from `least` to the largest cache size.
+/// A number of digits only, from `least` to [`MAX_CACHE_SIZE`].
 fn number(text: &str, least: u32) -> Option<u32> {
     let digits_only = text.bytes().all(|b| b.is_ascii_digit());
     let number = text.parse().ok().filter(|_| digits_only)?;
     (least..=MAX_CACHE_SIZE).contains(&number).then_some(number)
 }
 
-/// A limit of a batch: 0 for none.
+/// A limit of a batch, at least `least`, or 0 for none.
 fn limit(text: &str, least: u32) -> Option<u32> {
     number(text, 0).filter(|&limit| limit == 0 || limit >= least)
 }

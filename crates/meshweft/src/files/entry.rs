@@ -1,7 +1,7 @@
 //! A mesh as a file holds it: records that can be moved, and the walls they cannot cross.
 
 use crate::Mesh;
-use crate::limits::index32;
+use crate::index::index32;
 use crate::permutation::{FaceOrder, Permutation, VertexOrder};
 
 /// One re-orderable mesh of a file.

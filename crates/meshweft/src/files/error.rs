@@ -19,7 +19,7 @@ pub struct FileError {
     pub kind: FileErrorKind,
 }
 
-/// Where in a file something was found.
+/// Where in a file something was found; as text, nothing for [`File`](Self::File).
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -142,13 +142,21 @@ impl Fault {
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.path.display())?;
-        match &self.place {
-            Place::File => {}
-            Place::Line(line) => write!(f, "line {line}: ")?,
-            Place::Byte(byte) => write!(f, "byte {byte}: ")?,
-            Place::Json(pointer) => write!(f, "{pointer}: ")?,
+        match self.place {
+            Place::File => write!(f, "{}", self.kind),
+            _ => write!(f, "{}: {}", self.place, self.kind),
         }
-        write!(f, "{}", self.kind)
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File => Ok(()),
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+            Self::Json(pointer) => f.write_str(pointer),
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 //! The faces of a file of records as triangles, and the checks of what they count and name.
 
 use super::error::FileErrorKind;
-use crate::limits::{Limits, MAX_FACES, MAX_VERTICES, index32};
+use crate::index::{MAX_FACES, MAX_VERTICES, index32};
+use crate::limits::Limits;
 
 /// Collects the face records of a mesh as triangles.
 #[derive(Debug, Default)]

@@ -12,7 +12,7 @@ use super::error::{FileErrorKind, Place, Problem};
 use super::face_records::{FaceRecords, check_face_count, check_vertex_count, corner_vertex};
 use super::note::Note;
 use super::options::ReadOptions;
-use super::orders::Orders;
+use super::orders::RecordOrders;
 use super::record_file::RecordFile;
 use super::rewrite::{Notation, Rewrite, vertex_from_zero};
 use super::slots::Spans;
@@ -62,7 +62,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         lines: Spans::new(),
         notation: OffNotation,
         entries,
-        orders: Orders::default(),
+        orders: RecordOrders::default(),
     };
     Ok((Box::new(file), notes))
 }

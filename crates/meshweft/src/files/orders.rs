@@ -1,17 +1,17 @@
 //! The orders that a document was given, added up.
 
-use crate::limits::index32;
+use crate::index::index32;
 use crate::permutation::{FaceOrder, VertexOrder};
 
 /// All orders that were applied, as one; empty where nothing was moved or turned.
 #[derive(Debug, Default)]
-pub(super) struct Orders {
+pub(super) struct RecordOrders {
     pub(super) records: Vec<u32>,
     pub(super) rotations: Vec<u8>,
     pub(super) vertices: Vec<u32>,
 }
 
-impl Orders {
+impl RecordOrders {
     pub(super) fn add_faces(&mut self, order: &FaceOrder) {
         if order.is_identity() {
             return;
@@ -73,7 +73,7 @@ mod tests {
             order(vec![2, 0, 1], vec![1, 0, 2]),
             order(vec![1, 2, 0], vec![2, 1, 1]),
         );
-        let mut orders = Orders::default();
+        let mut orders = RecordOrders::default();
         orders.add_faces(&first);
         orders.add_faces(&second);
         let faces = [[0, 1, 2], [3, 4, 5], [6, 7, 8]];

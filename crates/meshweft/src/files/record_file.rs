@@ -8,7 +8,7 @@ use std::{fmt, io};
 use super::content::{Content, OutputFile};
 use super::entry::MeshEntry;
 use super::error::Problem;
-use super::orders::{Orders, record_in};
+use super::orders::{RecordOrders, record_in};
 use super::rewrite::{Change, Notation, Rewrite};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
@@ -26,12 +26,12 @@ pub(super) struct RecordFile<N> {
     pub(super) notation: N,
     /// One mesh, or none if the file has no faces.
     pub(super) entries: Vec<MeshEntry>,
-    pub(super) orders: Orders,
+    pub(super) orders: RecordOrders,
 }
 
 impl<N: Notation> RecordFile<N> {
     fn write(&self, sink: &mut dyn io::Write) -> io::Result<()> {
-        let Orders {
+        let RecordOrders {
             records, vertices, ..
         } = &self.orders;
         let source = self.source.as_slice();

@@ -24,16 +24,17 @@ pub fn random(len: usize, seed: u64) -> Permutation {
 /// A rendering sequence by Tipsify, for a FIFO cache of `cache_size` vertices.
 ///
 /// Pedro V. Sander, Diego Nehab, Joshua Barczak: *Fast Triangle Reordering for Vertex Locality and
-/// Reduced Overdraw*, ACM Transactions on Graphics 26(3), 2007, doi:10.1145/1276377.1276489. Fans
-/// around one vertex after the other; the next is the vertex of the last fan that entered the cache
-/// first among those whose own fan still fits, else the last used vertex with faces left, else the
-/// next in file order.
+/// Reduced Overdraw*, ACM Transactions on Graphics 26(3), 2007, doi:10.1145/1276377.1276489. It
+/// draws fans around one vertex after the other. The next vertex is the one of the last fan that
+/// entered the cache first, among those whose own fan still fits; else the last used vertex with
+/// faces left; else the next in file order.
 ///
 /// # Complexity
 /// Time O(vertices + faces), space 16 bytes a vertex and 29 a face.
 #[must_use]
 pub fn tipsify<'a>(faces: impl Into<Faces<'a>>, cache_size: u32) -> FaceOrder {
     let faces = faces.into();
+
     let adjacency = Adjacency::new(faces);
     let all_vertices = 0..index32(faces.vertex_count());
     let mut live: Vec<u32> = all_vertices
@@ -48,14 +49,14 @@ pub fn tipsify<'a>(faces: impl Into<Faces<'a>>, cache_size: u32) -> FaceOrder {
 
     let mut fan = in_file_order.next();
     while let Some(vertex) = fan {
-        // Draw what is left around the vertex.
+        // Draw the live faces of the vertex.
         let fan_start = dead_ends.len();
         for &face in adjacency.faces_of(vertex) {
             if std::mem::replace(&mut drawn[face as usize], true) {
                 continue;
             }
             new_to_old.push(face);
-            let corners = faces.corners()[face as usize];
+            let corners = faces.as_slice()[face as usize];
             for corner in corners {
                 dead_ends.push(corner);
                 cache.miss(corner);
@@ -65,8 +66,8 @@ pub fn tipsify<'a>(faces: impl Into<Faces<'a>>, cache_size: u32) -> FaceOrder {
             }
         }
 
-        // Go on with one of its neighbours. A vertex whose remaining fan still fits is worth the
-        // more the longer it has been there.
+        // Go on with one of its neighbours. Of those whose remaining fan still fits, the one that
+        // has been in the cache longest is worth most.
         let worth = |&v: &u32| {
             let age = cache.age(v);
             let fits = age + 2 * u64::from(live[v as usize]) <= u64::from(cache_size);

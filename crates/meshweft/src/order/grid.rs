@@ -1,26 +1,26 @@
 //! Orders for regular grids, such as terrain.
 //!
-//! A grid's best orders need no search. *Snake* goes along the rows, there and back: good only where
-//! the cache holds three rows. *Hilbert* follows D. Hilbert's curve (1891), which Bogomjakov & Gotsman
-//! took as the model of sequences that are good for every cache: quarter after quarter, each one
-//! quarter after quarter again. *Primed rows* are for one FIFO cache of `K`: strips, row below row, so
-//! narrow that each row finds all vertices of the last one.
+//! The best orders of a grid need no search. *Snake* goes along the rows, there and back; it is
+//! good only where the cache holds three rows. *Hilbert* follows D. Hilbert's curve (1891), which
+//! Bogomjakov & Gotsman took as the model of sequences that are good for every cache: it fills one
+//! quarter after the other, each in the same way. *Primed rows* are for one FIFO cache of `K`
+//! vertices: strips so narrow that each row finds all vertices of the row above in the cache.
 //!
-//! Such a strip cannot just begin: its first row pushes vertices of two rows in turn, half of them
-//! are gone when the next row asks for them, and so on for ever. M. Wloka and I. Castaño (*Optimal
-//! Grid Rendering*, 2009) *prime* the cache: a row of faces without area pushes the upper vertices
-//! alone, then `K − 2` cells fit ([`Grid::primed_faces`]). Where no face may be added
-//! ([`Grid::primed_rows`]) a strip of `K − 3` cells starts half as wide, which the cache does hold,
-//! and gains a cell a row from the third on; what that leaves out is drawn before it, by rows that
-//! get shorter.
+//! A strip cannot start at full width: its first row pushes vertices of two rows in turn, half of
+//! them are gone when the next row needs them, and so on in all rows. M. Wloka and I. Castaño
+//! (*Optimal Grid Rendering*, 2009) *prime* the cache: a row of faces without area pushes only the
+//! upper vertices, then `K − 2` cells fit ([`Grid::primed_faces`]). Where no face may be added
+//! ([`Grid::primed_rows`]), a strip of `K − 3` cells starts half as wide, which fits in the cache,
+//! and gains a cell a row from the third on. The cells that this leaves out are drawn before it, in
+//! rows that get shorter.
 
 use crate::permutation::Permutation;
 
 /// A grid of cells, each cut in two faces.
 ///
-/// Vertices are numbered row by row, `columns + 1` a row. The cell in column `x` of row `y` has the
-/// faces `2 · (y · columns + x)`, at the first corner of the cell, and the one after it, at the last
-/// corner: see [`faces`](Self::faces).
+/// Vertices are numbered row by row, `columns + 1` a row. The cell in column `x` of row `y` has two
+/// faces: `2 · (y · columns + x)`, at the first corner of the cell, and the next one, at the last
+/// corner; see [`faces`](Self::faces).
 ///
 /// ```
 /// use meshweft::{CacheModel, cache, order::Grid};
@@ -45,7 +45,7 @@ impl Grid {
     /// How many faces it has.
     ///
     /// # Panics
-    /// If they are more than 2³² − 1.
+    /// If there are more than 2³² − 1.
     #[must_use]
     pub fn face_count(&self) -> usize {
         let faces = u64::from(self.columns) * u64::from(self.rows) * 2;
@@ -72,7 +72,7 @@ impl Grid {
         faces
     }
 
-    /// Along the rows, there and back.
+    /// The faces along the rows, there and back.
     ///
     /// # Panics
     /// If there are more than 2³² − 1 faces.
@@ -88,8 +88,8 @@ impl Grid {
         sequence.done()
     }
 
-    /// Along Hilbert's curve through squares of the least power of two that is not below the shorter
-    /// side, one beside the other along the longer side.
+    /// The faces along Hilbert's curve, through a row of squares along the longer side. The side of
+    /// a square is the shorter side of the grid, rounded up to a power of two.
     ///
     /// # Panics
     /// If there are more than 2³² − 1 faces.
@@ -102,9 +102,11 @@ impl Grid {
         if self.face_count() == 0 {
             return sequence.done();
         }
+
         let side = u64::from(self.columns.min(self.rows)).next_power_of_two();
         let is_wide = self.columns >= self.rows;
         let longer = u64::from(self.columns.max(self.rows));
+
         let mut last = [0, 0];
         for square in 0..longer.div_ceil(side) {
             for step in 0..side * side {
@@ -117,8 +119,9 @@ impl Grid {
                 if x >= u64::from(self.columns) || y >= u64::from(self.rows) {
                     continue;
                 }
+
+                // The face on the side that the walk comes from is first.
                 let [x, y] = [x, y].map(index32_of);
-                // First the face at the side where the walk comes from.
                 sequence.cell(x, y, last[0] > x || last[1] > y);
                 last = [x, y];
             }
@@ -126,9 +129,9 @@ impl Grid {
         sequence.done()
     }
 
-    /// In strips for a FIFO cache of `cache_size` vertices, at least 5.
+    /// The faces in strips for a FIFO cache of `cache_size` vertices, at least 5.
     ///
-    /// Misses are about (K − 2) / (2K − 6) a face: .556 at 12.
+    /// Misses per face are about (K − 2) / (2K − 6): .556 at 12.
     ///
     /// # Panics
     /// If the cache is smaller, or there are more than 2³² − 1 faces.
@@ -138,18 +141,22 @@ impl Grid {
             cache_size >= 5,
             "such a strip needs a cache of five vertices"
         );
+
         let mut sequence = self.start();
         let width = cache_size - 3;
-        // A row of so many cells leaves all its vertices in the cache, whatever was there before.
+        // A row of this many cells leaves all its vertices in the cache, whatever was there before.
         let narrow = cache_size / 2 - 1;
         for left in (0..self.columns).step_by(width as usize) {
             let right = self.columns.min(left.saturating_add(width));
-            // The cell that a row gains is its first: the vertex above it that it pushes is then
+
+            // A row gains a cell at its start, so that the vertex that it pushes above the cell is
             // the first to leave.
             let start = |y: u32| {
                 let cells = narrow.saturating_add(y.saturating_sub(1));
                 right.saturating_sub(cells).max(left)
             };
+
+            // What the widening strip leaves out, then the strip.
             for y in 0..self.rows.min(width - narrow + 1) {
                 sequence.row(y, left..start(y));
             }
@@ -163,7 +170,7 @@ impl Grid {
     /// The faces in strips for a FIFO cache of `cache_size` vertices, at least 4, each strip after
     /// faces without area that name its uppermost vertices.
     ///
-    /// Misses are about (K − 1) / (2K − 4) a face: .55 at 12.
+    /// Misses per face are about (K − 1) / (2K − 4): .55 at 12.
     ///
     /// # Panics
     /// If the cache is smaller, or there are more than 2³² − 1 faces.
@@ -221,8 +228,8 @@ impl CellSequence {
     }
 }
 
-/// Where Hilbert's curve through a square of `side` cells, a power of two, is after `step` steps. It
-/// starts at the origin and ends at the other end of the first axis.
+/// The cell that Hilbert's curve through a square of `side` cells, a power of two, reaches after
+/// `step` steps. The curve starts at the origin and ends at the other end of the first axis.
 fn hilbert_cell(side: u64, step: u64) -> [u64; 2] {
     let [mut x, mut y] = [0, 0];
     let mut rest = step;
@@ -305,7 +312,7 @@ mod tests {
         for size in [5, 6, 7, 8, 9, 10, 12, 16, 24, 32] {
             let found = acmr(grid, &grid.primed_rows(size), size);
             let ideal = f64::from(size - 2) / f64::from(2 * size - 6);
-            // The first rows, and what the strips leave out, are seen twice.
+            // Vertices of the first rows, and of what the strips leave out, are missed twice.
             assert!(found < ideal * 1.05, "{size}: {found}, {ideal}");
         }
     }
@@ -319,7 +326,7 @@ mod tests {
         for size in [4, 5, 8, 12, 16, 33] {
             let faces = grid.primed_faces(size);
             let misses = cache::misses(&faces, CacheModel::fifo(size));
-            // Each strip has its vertices once; only the column between two strips is seen twice.
+            // Each strip misses its vertices once: only the column between two strips counts twice.
             let strips = u64::from(grid.columns.div_ceil(size - 2));
             assert_eq!(misses, (201 + strips - 1) * 101);
             let mut proper: Vec<_> = faces.into_iter().filter(|f| f[0] != f[1]).collect();

@@ -1,8 +1,8 @@
-//! Rendering sequences: in which order to draw the faces, and to store the vertices.
+//! Rendering sequences: the order in which to draw the faces and to store the vertices.
 //!
-//! [`Optimizer`] is the one call for every [`Target`] and [`Effort`]; [`KCacheReorder`] is the greedy
-//! below it; [`baselines`] are what they are compared with. Faces come first, then [`vertex_fetch()`]
-//! puts the vertices in the order of their first use.
+//! [`Optimizer`] is the one call for every [`Target`] and [`Effort`]. [`KCacheReorder`] is the
+//! greedy that it uses; [`baselines`] are orders to compare with. Order the faces first; then
+//! [`vertex_fetch()`] puts the vertices in the order of their first use.
 
 pub mod baselines;
 pub mod bogomjakov_gotsman;

@@ -50,22 +50,22 @@ impl Optimizer {
     /// The order in which to draw the faces.
     ///
     /// - FIFO and controllable, fast: [`KCacheReorder`].
-    /// - Larger caches than 128 vertices are searched as if they had 128: nothing is lost by a
-    ///   larger cache than an order was made for.
+    /// - Larger caches than 128 vertices (controllable: 64) are searched as if they had 128 (64): an
+    ///   order made for that is nearly as good in a larger cache.
     /// - LRU: as for a FIFO cache of five eighths of the size; made for the whole size, an order
     ///   falls off the edge of an LRU cache.
     ///
     /// # Complexity
-    /// Time O(vertices + faces), with a factor that the effort sets. Meshes of more than 262 thousand
-    /// faces are cut in parts of at least 131 thousand; space 90 bytes a face of the parts at work,
-    /// one a thread, beside 40 bytes a face of the whole.
+    /// Time O(vertices + faces), with a factor that the effort sets. Meshes of more than 262
+    /// thousand faces are cut into parts of at least 131 thousand. Space: 40 bytes a face of the
+    /// whole, and 90 bytes a face of the parts being searched, one a thread.
     #[must_use]
     pub fn face_order<'a>(&self, faces: impl Into<Faces<'a>>) -> FaceOrder {
-        self.run(faces, None, &())
+        self.face_order_with(faces, None, &())
     }
 
-    /// The order in which to draw the faces so that those of a polygon stay together, one after the
-    /// other as they are; faces `starts[i]..starts[i + 1]` are polygon `i`.
+    /// The order in which to draw the faces, with the faces of each polygon kept together and in
+    /// their order; faces `starts[i]..starts[i + 1]` are polygon `i`.
     ///
     /// Corners are never turned.
     ///
@@ -76,15 +76,16 @@ impl Optimizer {
     /// As [`face_order`](Self::face_order).
     #[must_use]
     pub fn polygon_order<'a>(&self, faces: impl Into<Faces<'a>>, starts: &[u32]) -> FaceOrder {
-        self.run(faces, Some(starts), &())
+        self.face_order_with(faces, Some(starts), &())
     }
 
     /// As [`face_order`](Self::face_order), or with `starts` as
-    /// [`polygon_order`](Self::polygon_order), for a caller who wants to hear how far it is, to stop
-    /// it or to hurry it.
+    /// [`polygon_order`](Self::polygon_order), with progress reports, for callers who want to stop
+    /// the search or limit its time.
     ///
-    /// Stopped, the rest is drawn without looking ahead: the order is whole all the same. A greedy
-    /// that does it all in one pass, of about a tenth of a second a million faces, is not stopped.
+    /// If stopped, the remaining faces are ordered greedily; the order is complete. A greedy that
+    /// does it all in one pass, of about a tenth of a second a million faces, reports only its end and
+    /// is not stopped.
     ///
     /// # Panics
     /// As [`polygon_order`](Self::polygon_order).
@@ -92,7 +93,7 @@ impl Optimizer {
     /// # Complexity
     /// As [`face_order`](Self::face_order).
     #[must_use]
-    pub fn run<'a>(
+    pub fn face_order_with<'a>(
         &self,
         faces: impl Into<Faces<'a>>,
         starts: Option<&[u32]>,
@@ -102,16 +103,21 @@ impl Optimizer {
         if let Some(starts) = starts {
             check_starts(starts, faces.len());
         }
+
+        // One pass, where that is enough.
         let is_timed = progress.time_spent().is_some();
         if !is_timed && let Some(greedy) = self.greedy() {
-            return match starts {
+            let order = match starts {
                 Some(starts) => greedy.polygon_order(faces, starts),
                 None => greedy.face_order(faces),
             };
+            let _ = progress.report(1.0);
+            return order;
         }
+
         let search = Search {
             target: self.target,
-            // Time is what ends it: it may look ahead as far as it can.
+            // The time limits it: let it look ahead as far as it can.
             effort: if is_timed { Effort::Max } else { self.effort },
             seed: self.seed,
             keep_corners: self.keep_corners,
@@ -119,6 +125,11 @@ impl Optimizer {
             progress,
         };
         search.face_order(faces, starts)
+    }
+
+    /// Whether it searches, where nothing limits its time; otherwise a greedy does it all in one pass.
+    pub(crate) fn is_search(&self) -> bool {
+        self.greedy().is_none()
     }
 
     /// The greedy that does it all in one pass, where there is one.

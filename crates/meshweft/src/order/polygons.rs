@@ -1,8 +1,11 @@
-//! Faces that are drawn together, as the polygons that they were cut from.
+//! Faces that are drawn together because they were cut from one polygon.
+//!
+//! Callers give `starts`: polygon `i` is the faces `starts[i]..starts[i + 1]`. Algorithms ask by
+//! face and use the range of each face's polygon ([`polygon_of_each_face`]).
 
 use crate::index::index32;
 
-/// Panics unless `starts` are polygons of `face_count` faces.
+/// Panics unless `starts` rises from 0 to `face_count`.
 pub(super) fn check_starts(starts: &[u32], face_count: usize) {
     let ends = starts.first().copied().zip(starts.last().copied());
     assert!(

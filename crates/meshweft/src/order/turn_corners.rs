@@ -1,4 +1,4 @@
-//! Any order with its faces turned for a cache.
+//! Turning the corners of a given order for a cache.
 
 use crate::cache::{CacheModel, Drawing};
 use crate::faces::{Faces, turned};
@@ -9,8 +9,8 @@ use crate::permutation::FaceOrder;
 ///
 /// A FIFO cache may lose a vertex of a face to another corner of it; with its hits first no face
 /// pushes a vertex that was there when it started. For orders that come from elsewhere: those made
-/// here are turned already, unless that was forbidden. Turns that the order has are replaced. Where the
-/// program decides who leaves ([`CacheModel::Controllable`]) no corner needs to be turned.
+/// here are turned already, unless that was forbidden. Existing rotations are replaced; for a
+/// controllable cache they become 0.
 ///
 /// # Panics
 /// If the order is of another number of faces.
@@ -40,7 +40,7 @@ pub fn turn_corners<'a>(
         return permutation.into();
     };
     let rotation = |&face: &u32| {
-        let corners = faces.corners()[face as usize];
+        let corners = faces.as_slice()[face as usize];
         let [a, b, c] = cache.missing(corners).map(usize::from);
         let rotation = HITS_FIRST[a | b << 1 | c << 2];
         cache.draw(turned(corners, rotation));
@@ -67,7 +67,9 @@ mod tests {
             let after = turn_corners(&faces, &order, model);
             assert_eq!(after.permutation(), order.permutation());
             let ordered = after.apply(&faces);
-            // Counted by the plain rule: distinct corners that are not there as the face starts.
+
+            // Counted by the plain rule: distinct corners that are missing before the face is
+            // drawn.
             let mut cache = Drawing::new(model, 41).unwrap();
             for (face, missed) in ordered.iter().zip(cache::misses_per_face(&ordered, model)) {
                 let missing = cache.missing(*face);
@@ -79,6 +81,7 @@ mod tests {
                 cache.draw(*face);
             }
         }
+
         let controllable = turn_corners(&faces, &order, CacheModel::controllable(5));
         assert_eq!(controllable, order);
     }

@@ -1,4 +1,4 @@
-//! Vertices in the order in which the faces first use them, so that fetching walks forward.
+//! Vertices in the order in which the faces first use them, so that they are fetched in sequence.
 
 use crate::faces::Faces;
 use crate::index::index32;
@@ -6,7 +6,8 @@ use crate::permutation::{Permutation, VertexOrder};
 
 /// The vertices in the order of their first use by `faces`; unused ones after them, in file order.
 ///
-/// Nothing is lost: unused vertices are kept. For a face order that is good for a vertex cache,
+/// Nothing is lost: unused vertices are kept. (A slice of triples has no vertices after its largest
+/// index: give [`Faces`] with the number of your vertices.) For a face order that is good for a vertex cache,
 /// first use is close to the best storage order there is (overfetch 1.10 to 1.14 on scanned meshes
 /// with 32-byte vertices, where 1 is the floor).
 ///
@@ -26,7 +27,7 @@ pub fn vertex_fetch<'a>(faces: impl Into<Faces<'a>>) -> VertexOrder {
     let vertex_count = faces.vertex_count();
     let mut seen = vec![false; vertex_count];
     let mut new_to_old = Vec::with_capacity(vertex_count);
-    let uses = faces.corners().iter().flatten().copied();
+    let uses = faces.as_slice().iter().flatten().copied();
     for vertex in uses.chain(0..index32(vertex_count)) {
         if !std::mem::replace(&mut seen[vertex as usize], true) {
             new_to_old.push(vertex);

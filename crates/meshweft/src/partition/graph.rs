@@ -4,8 +4,7 @@ use crate::faces::Faces;
 use crate::index::index32;
 use crate::topology::rows::Rows;
 
-/// An undirected graph with weights on vertices and edges, both of them kept at both ends of an
-/// edge.
+/// An undirected graph with weights on vertices and edges.
 ///
 /// ```
 /// use meshweft::partition::Graph;
@@ -17,18 +16,21 @@ use crate::topology::rows::Rows;
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Graph {
-    /// By vertex: the other end and the weight of each edge.
+    /// For each vertex, the other end and the weight of each edge. So each edge is stored twice.
     pub(super) edges: Rows<(u32, u32)>,
     pub(super) weights: Vec<u32>,
 }
 
 impl Graph {
-    /// `vertex_count` vertices of weight 1, joined by edges with their weights.
+    /// The graph of `vertex_count` vertices of weight 1 and these edges: two ends and a weight
+    /// each.
     ///
-    /// Edges between the same ends add up; an edge from a vertex to itself is dropped.
+    /// Weights of edges between the same ends are added up; an edge from a vertex to itself is
+    /// dropped.
     ///
     /// # Panics
-    /// If an edge names a vertex that is not there, or weights add up to more than 32 bits hold.
+    /// If an edge names a vertex that does not exist, or a sum of weights is more than 32 bits
+    /// hold.
     ///
     /// # Complexity
     /// Time and space O(vertices + edges).
@@ -41,14 +43,14 @@ impl Graph {
             weights: vec![1; vertex_count],
         };
 
-        // As a contraction in which each vertex stays alone, which adds up what is parallel.
+        // A contraction adds up parallel edges; here each vertex is a group of its own.
         let alone: Vec<u32> = (0..index32(vertex_count)).collect();
         raw.contracted(&alone, vertex_count)
     }
 
-    /// The dual graph of a mesh: a vertex a face, an edge between faces that share an edge.
+    /// The dual graph of a mesh: a vertex for each face, an edge between faces that share an edge.
     ///
-    /// Where more than two faces share an edge, each is joined to the next.
+    /// Where more than two faces share an edge, each is joined to the next, in file order.
     ///
     /// # Complexity
     /// Time O(faces · log of the most faces at a vertex), space 60 bytes a face.
@@ -56,14 +58,14 @@ impl Graph {
     pub fn dual<'a>(faces: impl Into<Faces<'a>>) -> Self {
         let faces = faces.into();
 
-        // The edges of all faces by their lesser end: the other end and the face.
+        // For each vertex, the edges of which it is the lesser end: the other end and the face.
         let ends = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
-        let numbered = (0_u32..).zip(faces.corners());
+        let numbered = (0_u32..).zip(faces.as_slice());
         let items = numbered
             .flat_map(|(face, corners)| ends(corners).map(|[a, b]| (a.min(b), (a.max(b), face))));
         let mut by_lesser_end = Rows::by_counting(faces.vertex_count(), items);
 
-        // Faces that share an edge stand side by side in its sorted row.
+        // Faces that share an edge are next to each other in a sorted row.
         let mut edges = Vec::with_capacity(faces.len() * 3 / 2);
         for row in by_lesser_end.rows_mut() {
             row.sort_unstable();
@@ -71,6 +73,7 @@ impl Graph {
             edges.extend(touching.map(|pair| (pair[0].1, pair[1].1, 1)));
         }
         drop(by_lesser_end);
+
         Self::from_edges(faces.len(), &edges)
     }
 
@@ -105,7 +108,7 @@ impl Graph {
         self.edges.row(vertex)
     }
 
-    /// The graph whose vertices are groups of this one's, `count` of them.
+    /// The graph whose vertices are `count` groups of this one's; weights are added up.
     pub(super) fn contracted(&self, group_of: &[u32], count: usize) -> Self {
         let mut weights = vec![0; count];
         for (&group, weight) in group_of.iter().zip(&self.weights) {
@@ -114,7 +117,7 @@ impl Graph {
         let members = Rows::by_counting(count, group_of.iter().copied().zip(0_u32..));
 
         let mut edges = Rows::with_capacity(count, self.edges.entries().len() / 2);
-        // Where the edge to each group stands, if it is at or after the start of the row.
+        // The place of the edge to each group; out of date if it is before the start of the row.
         let mut place = vec![u32::MAX; count];
         for group in 0..index32(count) {
             let start = edges.entries().len();
@@ -139,7 +142,7 @@ impl Graph {
         Self { edges, weights }
     }
 
-    /// The graphs of both sides, and which vertices of this one they have.
+    /// The graphs of both sides, and for each the vertices of this one that it has.
     pub(crate) fn split(&self, side: &[bool]) -> [(Self, Vec<u32>); 2] {
         let mut number = Vec::with_capacity(side.len());
         let mut members = [Vec::new(), Vec::new()];
@@ -154,8 +157,8 @@ impl Graph {
         [(first_part, first), (second_part, second)]
     }
 
-    /// The graph of some vertices and the edges among them; `number` is the place of a vertex among
-    /// them, if it is one of them.
+    /// The graph of some vertices and the edges among them; `number` is the place of a vertex in
+    /// `members`, or `None`.
     pub(crate) fn induced(&self, members: &[u32], number: impl Fn(u32) -> Option<u32>) -> Self {
         let share = self.edges.entries().len() * members.len() / self.weights.len().max(1);
         let mut edges = Rows::with_capacity(members.len(), share);

@@ -1,4 +1,4 @@
-//! Any number of parts.
+//! A graph cut into any number of parts.
 
 use super::bisection::{Bisection, halves};
 use super::graph::Graph;
@@ -7,7 +7,7 @@ use crate::index::index32;
 use crate::parallel;
 use crate::random::SplitMix64;
 
-/// Cuts a graph into parts of like weight with few edges between them.
+/// Cuts a graph into parts of similar weight with few edges between them.
 ///
 /// ```
 /// use meshweft::partition::{Graph, Multilevel, edge_cut, imbalance};
@@ -23,10 +23,10 @@ use crate::random::SplitMix64;
 pub struct Multilevel {
     /// How many parts.
     pub parts: u32,
-    /// How many times the mean a part may weigh. Where a part has few vertices, or heavy ones, it
-    /// may be more than that by a vertex.
+    /// How many times the mean a part may weigh. A part of few or heavy vertices may exceed that by
+    /// one vertex.
     pub imbalance: f64,
-    /// Where random numbers start. The same seed gives the same parts, on any platform and any
+    /// Seed of the random numbers. The same seed gives the same parts, on any platform and any
     /// number of threads.
     pub seed: u64,
 }
@@ -42,11 +42,11 @@ impl Default for Multilevel {
 }
 
 impl Multilevel {
-    /// The part of each vertex, from 0 to [`parts`](Self::parts); with fewer vertices than parts,
-    /// some are empty.
+    /// The part of each vertex, below [`parts`](Self::parts); with fewer vertices than parts, some
+    /// are empty.
     ///
     /// # Panics
-    /// If there are to be no parts, or the imbalance is below 1.
+    /// If `parts` is 0, or `imbalance` is below 1.
     ///
     /// # Complexity
     /// Time O((vertices + edges) · log parts), space 40 bytes a vertex and 16 an edge.
@@ -54,6 +54,8 @@ impl Multilevel {
     pub fn partition(&self, graph: &Graph) -> Vec<u32> {
         assert!(self.parts > 0, "a graph has one part at least");
         assert!(self.imbalance >= 1.0, "a part weighs the mean at least");
+
+        // Halve again and again.
         let mean = graph.weight() as f64 / f64::from(self.parts);
         let levels = self.parts.next_power_of_two().ilog2();
         let all: Vec<u32> = (0..index32(graph.vertex_count())).collect();
@@ -76,6 +78,8 @@ impl Multilevel {
                 part_of[vertex as usize] = part;
             }
         }
+
+        // Then move vertices between any two parts.
         if self.parts > 2 {
             refine(graph, &mut part_of, self.parts, rules.most(1, levels));
         }
@@ -83,7 +87,7 @@ impl Multilevel {
     }
 }
 
-/// How heavy parts may be.
+/// How heavy parts may be: the mean weight, and the share above it, which `levels` cuts use up.
 #[derive(Debug, Clone, Copy)]
 struct Rules {
     mean: f64,
@@ -96,19 +100,21 @@ struct Job {
     graph: Graph,
     /// The vertices of the whole graph that it has.
     members: Vec<u32>,
+    /// The first of the parts that it becomes, and how many.
     first_part: u32,
     parts: u32,
+    /// The number of the next cut, from 1.
     level: u32,
     seed: u64,
 }
 
 impl Rules {
-    /// The most that what becomes `parts` parts may weigh after `level` cuts: each cut uses up its
-    /// share of the slack.
+    /// The most that a piece of `parts` parts may weigh after `level` cuts; each cut may use an
+    /// equal share of the slack.
     fn most(self, parts: u32, level: u32) -> u64 {
         let used = f64::from(level) / f64::from(self.levels.max(1));
         let most = self.mean * f64::from(parts) * (1.0 + self.slack * used);
-        // Of parts with few vertices the mean is no whole number.
+        // The mean may be a fraction, which matters for parts of few vertices.
         let least = (self.mean * f64::from(parts)).ceil();
         #[expect(
             clippy::cast_possible_truncation,
@@ -120,10 +126,13 @@ impl Rules {
         }
     }
 
+    /// The parts of a piece, each with its vertices of the whole graph.
     fn cut(self, job: Job) -> Vec<(u32, Vec<u32>)> {
         if job.parts == 1 {
             return vec![(job.first_part, job.members)];
         }
+
+        // Two sides, each of half of the parts.
         let second = job.parts / 2;
         let first = job.parts - second;
         let weight = job.graph.weight();
@@ -137,6 +146,8 @@ impl Rules {
             patience: 25,
         };
         let side = halves(&job.graph, &asked);
+
+        // Each side is a job of its own.
         let [a, b] = job.graph.split(&side);
         let pieces = [
             (a, job.first_part, first),
@@ -154,13 +165,16 @@ impl Rules {
     }
 }
 
-/// Moves vertices to the neighbouring part that cuts least, while that cuts less.
+/// Moves vertices to the neighbouring part with most of their edges, as long as the cut gets
+/// smaller, in at most eight passes.
 fn refine(graph: &Graph, part_of: &mut [u32], parts: u32, most: u64) {
     let mut weights = part_weights(graph, part_of, parts);
     let mut links: Vec<(u32, u64)> = Vec::new();
+
     for _ in 0..8 {
         let mut is_better = false;
         for vertex in 0..index32(graph.vertex_count()) {
+            // The weight of the edges to each part, its own part first.
             let here = part_of[vertex as usize];
             links.clear();
             links.push((here, 0));
@@ -171,9 +185,10 @@ fn refine(graph: &Graph, part_of: &mut [u32], parts: u32, most: u64) {
                     None => links.push((part, u64::from(weight))),
                 }
             }
+
+            // The part with most; ties to the lighter part, which leaves room in the heavier one.
             let weight = u64::from(graph.weights[vertex as usize]);
             let inside = links[0].1;
-            // Of equal ones the lighter part: that makes room for others.
             let fits = |link: &&(u32, u64)| weights[link.0 as usize] + weight <= most;
             let best = links[1..].iter().filter(fits);
             let best =
@@ -181,6 +196,8 @@ fn refine(graph: &Graph, part_of: &mut [u32], parts: u32, most: u64) {
             let Some(&(part, outside)) = best else {
                 continue;
             };
+
+            // Move the vertex if that cuts less, or as much with better balance.
             let evens = weights[part as usize] + weight < weights[here as usize];
             if outside > inside || (outside == inside && evens) {
                 is_better |= outside > inside;

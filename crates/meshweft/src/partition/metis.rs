@@ -1,4 +1,4 @@
-//! METIS as it is, to compare with.
+//! The METIS library, to compare with.
 
 use std::fmt;
 
@@ -6,18 +6,18 @@ use metis::option::{Seed, UFactor};
 
 use super::graph::Graph;
 
-/// METIS' parts of a graph (feature `metis`, which compiles METIS' C code).
+/// Cuts a graph into parts by METIS (feature `metis`, which compiles its C code).
 ///
-/// For the same job without C code: [`Multilevel`](super::Multilevel).
+/// [`Multilevel`](super::Multilevel) does the same without C code.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Metis {
     /// How many parts.
     pub parts: u32,
-    /// How many times the mean a part may weigh, which METIS does not always keep.
+    /// How many times the mean a part may weigh; METIS sometimes exceeds it.
     pub imbalance: f64,
-    /// Where random numbers start.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Whether all parts come from halving; otherwise they are made at once and refined together.
+    /// Whether parts are made by halving; otherwise all are made at once and refined together.
     pub is_recursive: bool,
 }
 
@@ -32,13 +32,13 @@ impl Default for Metis {
     }
 }
 
-/// METIS refused a graph.
+/// Why METIS made no parts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MetisError {
-    /// It has more vertices, edges, weight or parts than 31 bits count.
+    /// There are more vertices, edges, weight or parts than 31 bits count.
     TooLarge,
-    /// METIS said so.
+    /// METIS reports an error; its text.
     Failed(String),
 }
 
@@ -54,10 +54,10 @@ impl fmt::Display for MetisError {
 impl std::error::Error for MetisError {}
 
 impl Metis {
-    /// The part of each vertex, from 0 to [`parts`](Self::parts).
+    /// The part of each vertex, below [`parts`](Self::parts).
     ///
     /// # Errors
-    /// If the graph is too large for METIS, or METIS fails.
+    /// [`MetisError`] if the graph is too large for METIS, or METIS fails.
     ///
     /// # Complexity
     /// Time O((vertices + edges) · log parts).
@@ -67,8 +67,9 @@ impl Metis {
             values.map(number).collect()
         };
         let parts = number(self.parts)?;
+
         if self.parts < 2 || graph.edges.entries().is_empty() {
-            // METIS refuses a graph without edges; then any parts of like weight are as good.
+            // METIS refuses a graph without edges, for which any parts of similar weight are good.
             return Ok(super::Multilevel {
                 parts: self.parts,
                 imbalance: self.imbalance.max(1.0),
@@ -79,6 +80,7 @@ impl Metis {
         if graph.weight() > i32::MAX.unsigned_abs().into() {
             return Err(MetisError::TooLarge);
         }
+
         let offsets = numbers(&mut graph.edges.starts().iter().copied())?;
         let neighbours = numbers(&mut graph.edges.entries().iter().map(|edge| edge.0))?;
         let edge_weights = numbers(&mut graph.edges.entries().iter().map(|edge| edge.1))?;
@@ -88,6 +90,7 @@ impl Metis {
             ((self.imbalance - 1.0) * 1000.0).round().clamp(1.0, 1e6) as i32,
             (self.seed & 0x7fff_ffff) as i32,
         );
+
         let mut found = vec![0; graph.vertex_count()];
         let failed = |error: &dyn fmt::Display| MetisError::Failed(error.to_string());
         let metis = metis::Graph::new(1, parts, &offsets, &neighbours)

@@ -1,13 +1,13 @@
-//! Balanced cuts of graphs: few edges between parts of like weight.
+//! Balanced cuts of graphs: few edges between parts of similar weight.
 //!
 //! Multilevel bisection (G. Karypis, V. Kumar: *A Fast and High Quality Multilevel Scheme for
 //! Partitioning Irregular Graphs*, SIAM Journal on Scientific Computing 20, 1998,
 //! doi:10.1137/S1064827595287997). The graph is made coarser by contracting heavy edges until it is
-//! tiny; the tiny graph is cut by growing one side from a seed; on the way back each finer graph
-//! inherits the cut and moves vertices across it ([`Multilevel`]). More parts come from halving
-//! again, the two halves side by side, and a last pass moves vertices between any two of them.
+//! tiny. The tiny graph is cut by growing one side from a start vertex. On the way back each finer
+//! graph inherits the cut and moves vertices across it ([`Multilevel`]). For more parts the halves
+//! are cut again, in parallel; at the end vertices move between any two parts.
 //!
-//! Read `graph`, then `bisection`; `refine` is where cuts get good.
+//! Read `graph`, then `bisection`; most of the quality comes from `refine`.
 
 mod bisection;
 mod coarsen;
@@ -44,7 +44,7 @@ pub fn edge_cut(graph: &Graph, parts: &[u32]) -> u64 {
     cut / 2
 }
 
-/// How many times the mean the heaviest of `count` parts weighs: 1 if all weigh the same.
+/// The weight of the heaviest of `count` parts, over the mean: 1 if all weigh the same.
 ///
 /// # Panics
 /// If a part is not below `count`.

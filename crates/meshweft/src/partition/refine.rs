@@ -1,17 +1,23 @@
-//! Better cuts by moving vertices across (C. M. Fiduccia, R. M. Mattheyses: *A Linear-Time Heuristic
-//! for Improving Network Partitions*, 1982, doi:10.1109/DAC.1982.1585498).
+//! Better cuts by moving vertices across (C. M. Fiduccia, R. M. Mattheyses: *A Linear-Time
+//! Heuristic for Improving Network Partitions*, 1982, doi:10.1109/DAC.1982.1585498).
+//!
+//! The *gain* of a vertex is how much less is cut if it moves. A pass moves the vertex of greatest
+//! gain, again and again and even where the gain is negative, and in the end returns to the best
+//! state on the way: so it can leave a cut that no single move makes better.
 
 use std::collections::BinaryHeap;
 
 use super::graph::Graph;
 use crate::index::index32;
 
-/// Vertices of each side by their gain, ties to the lowest number.
+/// For each side, its vertices by gain, ties to the lowest number: entries are the gain and
+/// `u32::MAX` minus the vertex. An entry is out of date once its vertex has moved or has another
+/// gain.
 type Heaps = [BinaryHeap<(i64, u32)>; 2];
 
-/// Graphs of so few vertices try to move all of them.
+/// On graphs of at most this many vertices a pass may move all of them, not only the boundary.
 const FEW: usize = 128;
-/// Who asks for no more passes than that is in a hurry.
+/// With at most this many passes it does not: the caller wants speed.
 const FEW_PASSES: usize = 3;
 
 /// The two sides of a graph, and how heavy each may be.
@@ -20,14 +26,15 @@ pub(super) struct Sides<'a> {
     pub(super) side: Vec<bool>,
     weights: [u64; 2],
     most: [u64; 2],
-    /// Of each vertex: weight of the edges to the other side less that of those to its own.
+    /// For each vertex, the weight of its edges to the other side less that of those to its own.
     gains: Vec<i64>,
-    /// Vertices with an edge to the other side, as long as none has moved.
+    /// The vertices with an edge to the other side; `None` after the first pass.
     boundary: Option<Vec<u32>>,
     pub(super) cut: i64,
 }
 
 impl<'a> Sides<'a> {
+    /// The given sides, with the gain of each vertex; `most` is the most that each side may weigh.
     pub(super) fn new(graph: &'a Graph, side: Vec<bool>, most: [u64; 2]) -> Self {
         let mut sides = Self {
             graph,
@@ -38,10 +45,12 @@ impl<'a> Sides<'a> {
             cut: 0,
             side,
         };
+
         let mut boundary = Vec::new();
         for vertex in 0..index32(sides.side.len()) {
             let here = sides.side[vertex as usize];
             sides.weights[usize::from(here)] += u64::from(graph.weights[vertex as usize]);
+
             let mut sums = [0, 0];
             for &(other, weight) in graph.row(vertex) {
                 let is_cut = sides.side[other as usize] != here;
@@ -54,22 +63,23 @@ impl<'a> Sides<'a> {
                 boundary.push(vertex);
             }
         }
+
+        // Each cut edge was counted from both ends.
         sides.cut /= 2;
         sides.boundary = Some(boundary);
         sides
     }
 
-    /// By how much the heavier side is too heavy.
+    /// How much the sides weigh beyond what they may: the larger of the two excesses.
     pub(super) fn excess(&self) -> u64 {
         let over = |side: usize| self.weights[side].saturating_sub(self.most[side]);
         over(0).max(over(1))
     }
 
-    /// Passes until one gains nothing, at most `passes`.
+    /// Makes passes until one does not improve the cut, at most `passes`.
     ///
-    /// A pass moves the best vertex of the boundary again and again, each at most once, even where
-    /// that cuts more for a while, up to `patience` moves without a better cut; then it goes back to
-    /// the best state.
+    /// A pass moves each vertex at most once. It ends after `patience` moves without a better cut
+    /// and returns to the best state.
     pub(super) fn refine(&mut self, passes: usize, patience: usize) {
         let mut is_locked = vec![false; self.side.len()];
         for _ in 0..passes {
@@ -79,10 +89,11 @@ impl<'a> Sides<'a> {
         }
     }
 
+    /// One pass; returns whether the cut is better. All of `is_locked` is false before and after.
     fn pass(&mut self, patience: usize, is_locked: &mut [bool], is_thorough: bool) -> bool {
+        // The vertices that may move: the boundary; all where a side is too heavy, or where there
+        // are few, because vertices inside a side can make room.
         let mut heaps = Heaps::default();
-        // Where the balance is wrong all may have to move; where there are few, also what touches
-        // nothing on the other side may make room.
         let are_all_tried = self.excess() > 0 || is_thorough && self.side.len() <= FEW;
         let known = self.boundary.take();
         let boundary = match known {
@@ -94,6 +105,9 @@ impl<'a> Sides<'a> {
             let gain = self.gains[vertex as usize];
             heaps[usize::from(here)].push((gain, u32::MAX - vertex));
         }
+
+        // Move the best vertex, lock it, and enter its neighbours again with their new gains.
+        // `kept` is the number of moves that lead to the best state.
         let start = (self.excess(), self.cut);
         let (mut best, mut kept) = (start, 0);
         let mut moved = Vec::new();
@@ -115,6 +129,8 @@ impl<'a> Sides<'a> {
                 (best, kept) = (now, moved.len());
             }
         }
+
+        // Take back the moves after the best state.
         for &vertex in moved[kept..].iter().rev() {
             self.shift(vertex);
         }
@@ -135,13 +151,14 @@ impl<'a> Sides<'a> {
         vertices.filter(is_movable).collect()
     }
 
-    /// The vertex of greatest gain whose move keeps the balance or betters it.
+    /// The vertex of greatest gain whose move keeps or improves the balance; `None` if there is
+    /// none.
     fn next(&self, heaps: &mut Heaps, is_locked: &[bool]) -> Option<u32> {
         loop {
             let mut choice: Option<(i64, u64, usize)> = None;
             let mut blocked = None;
             for (from, heap) in heaps.iter_mut().enumerate() {
-                // What was pushed before its gain changed or before it moved is out of date.
+                // Drop entries that are out of date.
                 while let Some(&(gain, inverse)) = heap.peek() {
                     let vertex = (u32::MAX - inverse) as usize;
                     let is_here = usize::from(self.side[vertex]) == from;
@@ -153,30 +170,35 @@ impl<'a> Sides<'a> {
                 let Some(&(gain, inverse)) = heap.peek() else {
                     continue;
                 };
+
+                // A move may leave the other side too heavy by this vertex at most, or by less than
+                // this side is now.
                 let weight = u64::from(self.graph.weights[(u32::MAX - inverse) as usize]);
                 let over_there =
                     (self.weights[1 - from] + weight).saturating_sub(self.most[1 - from]);
                 let over_here = self.weights[from].saturating_sub(self.most[from]);
-                // On the way a side may be too heavy by one vertex.
                 if over_there > weight && over_there >= over_here {
                     blocked = Some(from);
                     continue;
                 }
+
+                // The greater gain; ties from the heavier side.
                 let key = (gain, self.weights[from], from);
                 choice = choice.max(Some(key));
             }
+
             match (choice, blocked) {
                 (Some((_, _, from)), _) => {
                     return heaps[from].pop().map(|(_, inverse)| u32::MAX - inverse);
                 }
-                // Too heavy for now: the next one may not be.
+                // The best vertex is too heavy to move now; the next one may not be.
                 (None, Some(from)) => heaps[from].pop(),
                 (None, None) => return None,
             };
         }
     }
 
-    /// Moves a vertex to the other side.
+    /// Moves a vertex to the other side, and updates the weights, the cut and the gains.
     fn shift(&mut self, vertex: u32) {
         let v = vertex as usize;
         let here = self.side[v];

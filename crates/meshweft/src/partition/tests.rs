@@ -1,11 +1,11 @@
-//! Against brute force.
+//! Compared with brute force.
 
 use proptest::prelude::*;
 
 use super::*;
 use crate::random::SplitMix64;
 
-/// The least cut of all with both sides within `most`.
+/// The least of all cuts with both sides within `most`.
 fn least_cut(graph: &Graph, most: u64) -> u64 {
     let count = graph.vertex_count();
     let sides =
@@ -17,7 +17,7 @@ fn least_cut(graph: &Graph, most: u64) -> u64 {
     balanced.map(|side| edge_cut(graph, &side)).min().unwrap()
 }
 
-/// A path or circle with some more edges.
+/// Random edges among a few vertices.
 fn graphs() -> impl Strategy<Value = Graph> {
     let edges = |n: u32| prop::collection::vec((0..n, 0..n, 1..4_u32), 0..3 * n as usize);
     (2..13_u32).prop_flat_map(move |n| {

@@ -20,7 +20,7 @@ impl Adjacency {
     #[must_use]
     pub fn new<'a>(faces: impl Into<Faces<'a>>) -> Self {
         let faces = faces.into();
-        let numbered = (0_u32..).zip(faces.corners());
+        let numbered = (0_u32..).zip(faces.as_slice());
         let items = numbered.flat_map(|(number, &face)| distinct(face).map(move |v| (v, number)));
         Self {
             rows: Rows::by_counting(faces.vertex_count(), items),
@@ -58,8 +58,13 @@ impl Adjacency {
 #[inline]
 pub(crate) fn distinct(face: [u32; 3]) -> impl Iterator<Item = u32> + Clone {
     let [a, b, c] = face;
-    let keep = [true, b != a, c != a && c != b];
-    face.into_iter().zip(keep).filter(|p| p.1).map(|p| p.0)
+    let (corners, count) = match (b == a, c == a || c == b) {
+        (false, false) => ([a, b, c], 3),
+        (false, true) => ([a, b, b], 2),
+        (true, false) => ([a, c, c], 2),
+        (true, true) => ([a; 3], 1),
+    };
+    corners.into_iter().take(count)
 }
 
 #[cfg(test)]

@@ -93,7 +93,7 @@ impl<T> Rows<T> {
         &self.entries
     }
 
-    /// The entries of all rows, to be filled further within the row that is not ended yet.
+    /// The entries of all rows, including the open one.
     #[inline]
     pub(crate) fn entries_mut(&mut self) -> &mut [T] {
         &mut self.entries
@@ -105,7 +105,9 @@ impl<T> Rows<T> {
 #[inline]
 pub(crate) fn starts(row_count: usize, named: impl Iterator<Item = u32>) -> Vec<u32> {
     let mut starts = vec![0_u32; row_count + 1];
-    named.for_each(|row| starts[row as usize + 1] += 1);
+    // Counted one place further, so that sums up to a place are where its row starts.
+    let counts = &mut starts[1..];
+    named.for_each(|row| counts[row as usize] += 1);
     for row in 0..row_count {
         starts[row + 1] += starts[row];
     }
@@ -134,9 +136,9 @@ pub(crate) fn place<T>(
 /// traversals that keep a vertex's row beside what else they need of it, on one cache line.
 ///
 /// `start` finds the field. Before, it holds where the row *ends*; after, where it starts. Faces come
-/// last first, so that rows rise.
+/// in reverse, so that rows are ascending.
 #[inline]
-pub(crate) fn place_from_behind<S, T>(
+pub(crate) fn place_backwards<S, T>(
     slots: &mut [S],
     start: impl Fn(&mut S) -> &mut u32,
     faces: impl Iterator<Item = [(u32, T); 3]>,
@@ -182,14 +184,14 @@ mod tests {
     }
 
     #[test]
-    fn rows_filled_from_behind_rise() {
+    fn rows_filled_backwards_are_ascending() {
         let faces = [[0, 1, 2], [2, 1, 1]];
         // The ends of rows of one, three and two entries.
         let mut slots = [1, 4, 6];
         let mut entries = [9; 6];
         let numbered = (0..2).zip(faces).rev();
         let items = numbered.map(|(face, corners)| corners.map(|corner| (corner, face)));
-        place_from_behind(&mut slots, |slot| slot, items, &mut entries);
+        place_backwards(&mut slots, |slot| slot, items, &mut entries);
         assert_eq!(slots, [0, 1, 4]);
         assert_eq!(entries, [0, 0, 1, 1, 0, 1]);
     }

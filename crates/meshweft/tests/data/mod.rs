@@ -1,22 +1,15 @@
 //! Real meshes, where they are at hand.
 
+mod folder;
+
 use std::path::{Path, PathBuf};
 
 use meshweft::files::Document;
 use meshweft::{Limits, Mesh};
 
-/// The folder of real meshes, or `None` with a loud word.
+/// The folder of meshes.
 pub(crate) fn meshes() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("MESHWEFT_DATA").map_or(beside, PathBuf::from);
-    let folder = folder.join("meshes");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let required = std::env::var_os("MESHWEFT_REQUIRE_DATA").is_some();
-    assert!(!required, "no meshes in {}", folder.display());
-    eprintln!("SKIPPED: no meshes in {}", folder.display());
-    None
+    Some(folder::folder()?.join("meshes"))
 }
 
 /// The first mesh of a file.

@@ -4,6 +4,8 @@
 mod broken;
 mod builder;
 mod data;
+#[path = "../data/folder.rs"]
+mod data_folder;
 #[path = "../files_errors/mod.rs"]
 mod errors;
 mod moves;

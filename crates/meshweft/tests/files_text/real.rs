@@ -1,20 +1,12 @@
 //! Real and malformed meshes, where they are there.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use meshweft::Limits;
 use meshweft::files::{Document, FileErrorKind, Format};
 
+use super::data::folder;
 use super::{check_times, name_of};
-
-/// The folder with real meshes, if it is there.
-fn data() -> Option<PathBuf> {
-    let folder = std::env::var_os("MESHWEFT_DATA").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-        PathBuf::from,
-    );
-    folder.is_dir().then_some(folder)
-}
 
 /// The rows of the data's index whose file is of a format that is tested here.
 fn index(folder: &Path) -> Vec<(String, Format, Vec<String>)> {
@@ -34,10 +26,7 @@ fn index(folder: &Path) -> Vec<(String, Format, Vec<String>)> {
 
 #[test]
 fn real_and_malformed_files_are_read_as_the_index_says() {
-    let Some(folder) = data() else {
-        eprintln!("SKIPPED every real mesh: there is no MESHWEFT_DATA and no ../shared/data");
-        return;
-    };
+    let Some(folder) = folder() else { return };
     let rows = index(&folder);
     let mut counts = [0, 0];
     for (file, format, columns) in &rows {

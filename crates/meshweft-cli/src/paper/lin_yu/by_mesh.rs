@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use meshweft::order::baselines::random;
-use meshweft::order::{KCacheReorder, Mode};
-use meshweft::{CacheModel, Mesh, cache};
+use meshweft::operations::{Greedy, Method};
+use meshweft::order::Mode;
+use meshweft::{CacheModel, Mesh, Permutation, cache};
 use serde_json::{Value, json};
 
 use super::found::{Found, SIZE, algorithm, control, fifo};
@@ -37,7 +37,7 @@ pub(super) fn fig_3(found: &[Found]) -> Figure {
     let mut json = Vec::new();
     for it in found {
         let (printed, mesh) = (it.printed, &it.mesh);
-        let shuffled = random(mesh.face_count(), 1).apply(mesh.faces());
+        let shuffled = Permutation::random(mesh.face_count(), 1).apply(mesh.faces());
         let shuffled = cache::acmr(&shuffled, CacheModel::fifo(SIZE));
         let fifos = [Mode::Faithful, Mode::Fast].map(|mode| fifo(mesh, SIZE, mode));
         let controls = [Mode::Faithful, Mode::Fast].map(|mode| control(mesh, SIZE, mode));
@@ -108,7 +108,7 @@ pub(super) fn fig_6(found: &[Found]) -> Figure {
         };
         let ours = FIG_6_SIZES.map(|size| {
             let start = Instant::now();
-            let order = algorithm(CacheModel::fifo(size), Mode::Fast).face_order(&it.mesh);
+            let order = algorithm(CacheModel::fifo(size), Mode::Fast).order(&it.mesh);
             std::hint::black_box(order);
             start.elapsed().as_secs_f64()
         });
@@ -172,13 +172,14 @@ pub(super) fn fig_9(found: &[Found]) -> Figure {
 /// Mean, least, most and standard deviation of misses per face.
 fn from_many_foci(mesh: &Mesh, mode: Mode) -> [f64; 4] {
     let model = CacheModel::fifo(SIZE);
-    let foci = random(mesh.vertex_count(), 9);
+    let foci = Permutation::random(mesh.vertex_count(), 9);
     let acmr = |&focus: &u32| {
-        let algorithm = KCacheReorder {
+        let algorithm = Method::KCacheReorder {
+            cache: model,
+            greedy: Greedy::of_mode(mode),
             first_focus: Some(focus),
-            ..algorithm(model, mode)
         };
-        cache::acmr(&algorithm.face_order(mesh).apply(mesh.faces()), model)
+        cache::acmr(&algorithm.order(mesh).apply(mesh.faces()), model)
     };
 
     let runs: Vec<f64> = foci

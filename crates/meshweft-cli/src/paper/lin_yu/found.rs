@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use meshweft::order::{KCacheReorder, Mode};
+use meshweft::operations::{Greedy, Method};
+use meshweft::order::Mode;
 use meshweft::{CacheModel, Mesh, cache};
 
 use super::printed::Printed;
-use crate::count::ratio;
 use crate::paper::meshes::{self, LARGE};
 
 /// Cache size of Figs. 3, 8, 9 and 10.
@@ -55,25 +55,25 @@ impl Found {
 }
 
 /// The algorithm with the weights of the paper.
-pub(super) fn algorithm(cache: CacheModel, mode: Mode) -> KCacheReorder {
-    KCacheReorder {
+pub(super) fn algorithm(cache: CacheModel, mode: Mode) -> Method {
+    Method::KCacheReorder {
         cache,
-        mode,
-        ..Default::default()
+        greedy: Greedy::of_mode(mode),
+        first_focus: None,
     }
 }
 
 /// Misses per face of the order made for a FIFO cache.
 pub(super) fn fifo(mesh: &Mesh, size: u32, mode: Mode) -> f64 {
     let model = CacheModel::fifo(size);
-    let order = algorithm(model, mode).face_order(mesh);
+    let order = algorithm(model, mode).order(mesh);
     cache::acmr(&order.apply(mesh.faces()), model)
 }
 
 /// Pushes per face as scheduled, and by the best schedule for the same order.
 pub(super) fn control(mesh: &Mesh, size: u32, mode: Mode) -> [f64; 2] {
     let model = CacheModel::controllable(size);
-    let (order, schedule) = algorithm(model, mode).schedule(mesh);
-    let scheduled = ratio(schedule.pushes() as f64, mesh.face_count());
+    let (order, pushes) = algorithm(model, mode).scheduled_order(mesh);
+    let scheduled = pushes as f64 / mesh.face_count().max(1) as f64;
     [scheduled, cache::acmr(&order.apply(mesh.faces()), model)]
 }

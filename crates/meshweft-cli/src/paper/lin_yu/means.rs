@@ -1,11 +1,11 @@
 //! Figures of means over the meshes: 7, 8 and 10.
 
-use meshweft::order::baselines::tipsify;
-use meshweft::order::{KCacheReorder, Mode};
+use meshweft::operations::{Greedy, Method};
+use meshweft::order::Mode;
 use meshweft::{CacheModel, Mesh, cache};
 use serde_json::json;
 
-use super::found::{Found, SIZE, algorithm, control, fifo};
+use super::found::{Found, SIZE, control, fifo};
 use super::printed::{FIG_7, SIZES};
 use crate::paper::figure::{Figure, cells, head, mean};
 use crate::paper::meshes::LARGE;
@@ -86,13 +86,18 @@ pub(super) fn fig_8(found: &[Found]) -> Figure {
 
     let grid = K2.map(|k2| {
         K3.map(|k3| {
-            let algorithm = KCacheReorder {
-                k2,
-                k3,
-                ..algorithm(model, Mode::Fast)
+            let greedy = Greedy {
+                k2: Some(k2),
+                k3: Some(k3),
+                ..Greedy::default()
+            };
+            let algorithm = Method::KCacheReorder {
+                cache: model,
+                greedy,
+                first_focus: None,
             };
             let acmr =
-                |mesh: &&Mesh| cache::acmr(&algorithm.face_order(*mesh).apply(mesh.faces()), model);
+                |&mesh: &&Mesh| cache::acmr(&algorithm.order(mesh).apply(mesh.faces()), model);
             mean(meshes.iter().map(acmr))
         })
     });
@@ -120,18 +125,16 @@ pub(super) fn fig_8(found: &[Found]) -> Figure {
 /// Orders for one cache size, used at others.
 pub(super) fn fig_10(found: &[Found]) -> Figure {
     let meshes = not_large(found);
-    let kcr = |mesh: &Mesh, mode| algorithm(CacheModel::fifo(SIZE), mode).face_order(mesh);
-    let methods = ["faithful", "fast", "Tipsify"];
+    let methods = [
+        ("faithful", Method::k_cache_reorder(SIZE, Mode::Faithful)),
+        ("fast", Method::k_cache_reorder(SIZE, Mode::Fast)),
+        ("Tipsify", Method::Tipsify { size: SIZE }),
+    ];
 
     let mut ours = [[0.0; 6]; 3];
-    for mesh in &meshes {
-        let orders = [
-            kcr(mesh, Mode::Faithful),
-            kcr(mesh, Mode::Fast),
-            tipsify(*mesh, SIZE),
-        ];
-        for (row, order) in ours.iter_mut().zip(orders) {
-            let faces = order.apply(mesh.faces());
+    for &mesh in &meshes {
+        for (row, (_, method)) in ours.iter_mut().zip(methods) {
+            let faces = method.order(mesh).apply(mesh.faces());
             for (sum, &size) in row.iter_mut().zip(&SIZES) {
                 *sum += cache::acmr(&faces, CacheModel::fifo(size)) / meshes.len() as f64;
             }
@@ -151,7 +154,7 @@ pub(super) fn fig_10(found: &[Found]) -> Figure {
         methods
             .iter()
             .zip(ours)
-            .map(|(name, row)| cells(*name, row)),
+            .map(|((name, _), row)| cells(*name, row)),
     );
 
     let title = format!(

@@ -16,7 +16,7 @@ use crate::Mesh;
 use crate::error::MeshError;
 use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::limits::index32;
+use crate::index::index32;
 use crate::permutation::{Permutation, VertexOrder};
 
 /// Where the corners of a mesh's faces are stored.

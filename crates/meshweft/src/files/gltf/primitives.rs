@@ -14,7 +14,7 @@ use super::strided_records::StridedRecords;
 use crate::files::error::{Place, Problem};
 use crate::files::face_records::{check_face_count, check_vertex_count};
 use crate::files::options::ReadOptions;
-use crate::limits::index32;
+use crate::index::index32;
 
 /// All primitives of a file.
 #[derive(Debug, Default)]

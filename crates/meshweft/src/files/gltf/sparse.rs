@@ -8,7 +8,7 @@ use super::buffers::Buffers;
 use super::json::Value;
 use super::patch;
 use super::strided_records::StridedRecords;
-use crate::limits::index32;
+use crate::index::index32;
 
 /// Elements stored by number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -26,13 +26,13 @@ use crate::files::error::{Fault, FileErrorKind, Place};
 use crate::files::face_records::{FaceRecords, check_vertex_count, past_the_last_vertex};
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
-use crate::files::orders::Orders;
+use crate::files::orders::RecordOrders;
 use crate::files::record_file::RecordFile;
 use crate::files::slots::Spans;
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, leading_number, line_end, line_of, shown, trimmed,
 };
-use crate::limits::index32;
+use crate::index::index32;
 use statement::{ObjNotation, attributes_named, statement_span};
 
 /// Statements that name no vertices (`v`, `f`, `l` and `p` are dealt with by themselves).
@@ -117,7 +117,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         lines,
         notation,
         entries,
-        orders: Orders::default(),
+        orders: RecordOrders::default(),
     };
     Ok((Box::new(file), notes))
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::header::{Element, PlyHeader, PropertyKind};
 use super::plan::Plan;
-use super::rows::{Row, Rows, TriangleLayout};
+use super::rows::{PlyRows, Row, TriangleLayout};
 use crate::files::error::{Fault, FileErrorKind};
 use crate::files::face_records::{FaceRecords, corner_vertex, past_the_last_vertex};
 use crate::files::slots::Spans;
@@ -21,7 +21,7 @@ pub(super) struct Body {
 }
 
 /// Reads the rows of all elements.
-pub(super) fn read<R: Rows>(
+pub(super) fn read<R: PlyRows>(
     mut rows: R,
     header: &PlyHeader,
     plan: &Plan,
@@ -52,7 +52,7 @@ pub(super) fn read<R: Rows>(
 }
 
 /// Reads past the rows of an element, and hands over where each stands.
-fn pass_over<R: Rows>(
+fn pass_over<R: PlyRows>(
     rows: &mut R,
     element: &Element,
     mut seen: impl FnMut(usize, Range<usize>) -> Result<(), FileErrorKind>,
@@ -80,14 +80,18 @@ fn pass_over<R: Rows>(
     Ok(())
 }
 
-fn read_vertices<R: Rows>(rows: &mut R, element: &Element, body: &mut Body) -> Result<(), Fault> {
+fn read_vertices<R: PlyRows>(
+    rows: &mut R,
+    element: &Element,
+    body: &mut Body,
+) -> Result<(), Fault> {
     let [Some(x), Some(y), Some(z)] = ["x", "y", "z"].map(|name| element.scalar(name)) else {
         // Positions are not needed for anything: the file may have its vertices in another form.
         let spans = &mut body.vertices;
         return pass_over(rows, element, |_, span| spans.push(span));
     };
 
-    // Rows of one length are read at once.
+    // PlyRows of one length are read at once.
     if let Some((start, positions)) = rows.positions(element, [x, y, z]) {
         let length = (rows.at() - start) / element.count.max(1);
         let pushed = body.vertices.push_even(start, length, element.count);
@@ -124,7 +128,7 @@ fn read_vertices<R: Rows>(rows: &mut R, element: &Element, body: &mut Body) -> R
     Ok(())
 }
 
-fn read_faces<R: Rows>(
+fn read_faces<R: PlyRows>(
     rows: &mut R,
     element: &Element,
     header: &PlyHeader,
@@ -164,7 +168,7 @@ fn read_faces<R: Rows>(
 
 /// Reads triangles of one layout from `row` on, which has been started, as long as there are any; how
 /// many.
-fn read_triangles<R: Rows>(
+fn read_triangles<R: PlyRows>(
     rows: &mut R,
     layout: &TriangleLayout,
     row: &Row<'_>,
@@ -199,7 +203,7 @@ fn read_triangles<R: Rows>(
 
 /// Reads a row; `corners` gets what the list with this number holds.
 #[inline]
-fn read_corners<R: Rows>(
+fn read_corners<R: PlyRows>(
     rows: &mut R,
     list: usize,
     row: &Row<'_>,

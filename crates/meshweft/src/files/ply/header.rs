@@ -83,7 +83,7 @@ pub(super) struct Property {
     pub(super) kind: PropertyKind,
 }
 
-/// Rows of one kind.
+/// PlyRows of one kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Element {
     pub(super) name: String,

@@ -26,11 +26,11 @@ use crate::files::error::{FileErrorKind, Place};
 use crate::files::face_records::{check_face_count, check_vertex_count};
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
-use crate::files::orders::Orders;
+use crate::files::orders::RecordOrders;
 use crate::files::record_file::RecordFile;
 use crate::files::slots::Spans;
 use crate::files::text::line_of;
-use crate::limits::index32;
+use crate::index::index32;
 use body::Body;
 use header::{Element, Encoding, PlyHeader};
 use notation::PlyNotation;
@@ -123,7 +123,7 @@ fn finish(bytes: Vec<u8>, header: &PlyHeader, plan: Plan, body: Body) -> ReadRes
         lines: Spans::new(),
         notation: PlyNotation::new(header),
         entries,
-        orders: Orders::default(),
+        orders: RecordOrders::default(),
     };
     Ok((Box::new(file), notes))
 }

@@ -1,7 +1,7 @@
 //! Writing the corners of a PLY face.
 
 use super::header::{Element, Encoding, PlyHeader, PropertyKind, Scalar};
-use super::rows::{Ascii, Binary, Row, Rows};
+use super::rows::{Ascii, Binary, PlyRows, Row};
 use crate::files::rewrite::{Change, Notation, Rewrite, vertex_from_zero};
 use crate::files::text::Tokens;
 
@@ -49,7 +49,7 @@ impl PlyNotation {
     }
 
     /// Where the corners of a row start, how many there are, and their type.
-    fn corners<R: Rows>(&self, mut rows: R) -> Option<(usize, usize, Scalar)> {
+    fn corners<R: PlyRows>(&self, mut rows: R) -> Option<(usize, usize, Scalar)> {
         let (element, list) = self.face.as_ref()?;
         let row = Row { element, number: 0 };
         for (number, property) in element.properties.iter().enumerate() {

@@ -27,7 +27,7 @@ impl Row<'_> {
 }
 
 /// A stream of values.
-pub(super) trait Rows {
+pub(super) trait PlyRows {
     /// Where the next value is looked for.
     fn at(&self) -> usize;
     /// Moves to the first byte of the next row, which is returned.
@@ -75,7 +75,7 @@ pub(super) trait Rows {
     }
 }
 
-/// Rows with numbers around one list of corners, of four bytes each, its length in one byte.
+/// PlyRows with numbers around one list of corners, of four bytes each, its length in one byte.
 pub(super) struct TriangleLayout {
     /// Bytes before the list.
     before: usize,
@@ -113,7 +113,7 @@ impl TriangleLayout {
     }
 }
 
-/// Rows as lines of text.
+/// PlyRows as lines of text.
 pub(super) struct Ascii<'a> {
     source: &'a [u8],
     tokens: Tokens<'a>,
@@ -136,7 +136,7 @@ impl<'a> Ascii<'a> {
     }
 }
 
-impl Rows for Ascii<'_> {
+impl PlyRows for Ascii<'_> {
     fn at(&self) -> usize {
         self.tokens.at()
     }
@@ -203,7 +203,7 @@ impl Rows for Ascii<'_> {
     }
 }
 
-/// Rows as bytes.
+/// PlyRows as bytes.
 pub(super) struct Binary<'a, const BIG: bool> {
     source: &'a [u8],
     at: usize,
@@ -235,7 +235,7 @@ macro_rules! number {
     }};
 }
 
-impl<const BIG: bool> Rows for Binary<'_, BIG> {
+impl<const BIG: bool> PlyRows for Binary<'_, BIG> {
     #[inline]
     fn at(&self) -> usize {
         self.at

@@ -12,7 +12,8 @@ use crate::files::slots::Spans;
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
 };
-use crate::limits::{Limits, index32};
+use crate::index::index32;
+use crate::limits::Limits;
 
 /// Where the word `solid` starts that makes a file ascii.
 pub(super) fn start(bytes: &[u8]) -> Option<usize> {

@@ -23,12 +23,13 @@ use super::error::{FileErrorKind, Place};
 use super::face_records::{FaceRecords, check_vertex_count};
 use super::note::Note;
 use super::options::ReadOptions;
-use super::orders::Orders;
+use super::orders::RecordOrders;
 use super::record_file::RecordFile;
 use super::rewrite::Notation;
 use super::slots::Spans;
 use crate::Mesh;
-use crate::limits::{Limits, index32};
+use crate::index::index32;
+use crate::limits::Limits;
 use facets::Facets;
 
 /// Reads an STL file.
@@ -78,7 +79,7 @@ fn content<N: Notation + 'static>(
         lines: Spans::new(),
         notation,
         entries,
-        orders: Orders::default(),
+        orders: RecordOrders::default(),
     };
     Ok((Box::new(file), notes))
 }

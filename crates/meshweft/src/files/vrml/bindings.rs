@@ -9,7 +9,8 @@ use crate::files::entry::MeshEntry;
 use crate::files::error::Fault;
 use crate::files::face_records::{FaceRecords, check_vertex_count, corner_vertex};
 use crate::files::slots::Spans;
-use crate::limits::{Limits, index32};
+use crate::index::index32;
+use crate::limits::Limits;
 
 /// Where the records of a face set stand.
 #[derive(Debug)]

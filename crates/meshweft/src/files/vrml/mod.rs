@@ -29,7 +29,7 @@ use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
 use super::note::Note;
 use super::options::ReadOptions;
-use super::orders::{Orders, record_in};
+use super::orders::{RecordOrders, record_in};
 use super::rewrite::{Change, Rewrite};
 use super::splice::{Layer, splice};
 use super::text::is_line_end;
@@ -70,7 +70,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
                 sets.push(Set {
                     span: set.span.clone(),
                     slots: bound.slots,
-                    orders: Orders::default(),
+                    orders: RecordOrders::default(),
                 });
             }
             Err(Stop::Stays(why)) => said.add(at, Stays::Mesh(why)),
@@ -174,7 +174,7 @@ impl Said {
 struct Set {
     span: Range<usize>,
     slots: Slots,
-    orders: Orders,
+    orders: RecordOrders,
 }
 
 struct VrmlFile {

@@ -1,14 +1,14 @@
-//! A mesh cut in halves again and again.
+//! A mesh cut into halves, recursively.
 
 use crate::index::index32;
 use crate::parallel;
 use crate::partition::{Bisection, Graph, coarser, halves};
 use crate::random::SplitMix64;
 
-/// Faces cut in two down to pieces.
+/// Faces cut in two, recursively, down to pieces.
 #[derive(Debug)]
 pub(super) enum CutTree {
-    /// A piece: its faces, rising.
+    /// A piece: its faces, in rising order.
     Piece(Vec<u32>),
     /// Two halves, and how many faces they have together.
     Cut(Box<[CutTree; 2]>, usize),
@@ -23,7 +23,7 @@ pub(super) struct Cutting {
     pub(super) cutter: Cutter,
 }
 
-/// Who finds a balanced cut.
+/// Which algorithm finds a balanced cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Cutter {
@@ -35,18 +35,18 @@ pub enum Cutter {
     Metis,
 }
 
-/// Graphs of more weight are cut on threads of their own.
+/// The halves of a graph of more weight are cut on two threads.
 const ALONE: u64 = 1 << 14;
-/// Most faces in a cluster. Large parts are cut along clusters: face by face takes longer.
+/// Most faces in a cluster. Large parts are cut along clusters, which is faster than face by face.
 const CLUSTER: u32 = 16;
-/// Parts of so many faces are cut face by face.
+/// Parts of at most this many faces are cut face by face.
 const PART: u64 = 128;
 
 impl CutTree {
-    /// Cuts a mesh's dual graph.
+    /// Cuts the dual graph of a mesh.
     ///
-    /// Parts of some hundred faces come from a graph of clusters; then faces at their borders go
-    /// where most of their neighbours are, and each part is cut by itself.
+    /// A graph of clusters is cut into parts of about a hundred faces. Then faces at the borders
+    /// move to the part that has most of their neighbours, and each part is cut face by face.
     ///
     /// Time O(faces · log faces).
     pub(super) fn new(graph: &Graph, cutting: &Cutting) -> Self {
@@ -54,9 +54,13 @@ impl CutTree {
             let all = (0..).take(graph.vertex_count()).collect();
             return cut(graph, all, cutting.piece.into(), cutting, cutting.seed);
         }
+
+        // The upper tree, of clusters.
         let (clusters, cluster_of) = clusters(graph, cutting.seed);
         let all = (0..).take(clusters.vertex_count()).collect();
         let mut tree = cut(&clusters, all, PART, cutting, cutting.seed);
+
+        // The part of each face: its piece of that tree, smoothed.
         let mut part_of_cluster = vec![0; clusters.vertex_count()];
         let mut parts = 0;
         tree.for_each_piece(&mut |piece| {
@@ -70,6 +74,7 @@ impl CutTree {
             .map(|&cluster| part_of_cluster[cluster as usize])
             .collect();
         smooth(graph, &mut part_of);
+
         // The faces of each part, and the place of each face among them.
         let mut members: Vec<Vec<u32>> = vec![Vec::new(); parts as usize];
         let mut place = Vec::with_capacity(part_of.len());
@@ -78,6 +83,8 @@ impl CutTree {
             place.push(index32(members.len()));
             members.push(face);
         }
+
+        // Cut each part, and replace its piece by the tree.
         let jobs = (0..parts).zip(members).collect();
         let cut_part = |(part, faces): (u32, Vec<u32>)| {
             let number = |face: u32| (part_of[face as usize] == part).then(|| place[face as usize]);
@@ -119,7 +126,7 @@ impl CutTree {
         }
     }
 
-    /// Puts a tree in the place of each piece.
+    /// Replaces each piece by the next of `trees`.
     fn graft(&mut self, trees: &mut impl Iterator<Item = Self>) {
         match self {
             Self::Piece(_) => *self = trees.next().unwrap_or(Self::Piece(Vec::new())),
@@ -137,8 +144,8 @@ fn clusters(graph: &Graph, seed: u64) -> (Graph, Vec<u32>) {
     let mut found: Option<(Graph, Vec<u32>)> = None;
     let mut heaviest = 2;
     while heaviest <= CLUSTER {
-        let finest = found.as_ref().map_or(graph, |(graph, _)| graph);
-        let Some((coarse, group_of)) = coarser(finest, heaviest.into(), &mut random) else {
+        let coarsest = found.as_ref().map_or(graph, |(graph, _)| graph);
+        let Some((coarse, group_of)) = coarser(coarsest, heaviest.into(), &mut random) else {
             break;
         };
         let cluster_of = match found {
@@ -151,7 +158,7 @@ fn clusters(graph: &Graph, seed: u64) -> (Graph, Vec<u32>) {
     found.unwrap_or_else(|| (graph.clone(), (0..).take(graph.vertex_count()).collect()))
 }
 
-/// Moves each vertex to where more of its neighbours are.
+/// Moves vertices at a border to the part across it, if more of their neighbours are there.
 fn smooth(graph: &Graph, part_of: &mut [u32]) {
     for _ in 0..2 {
         for vertex in 0..index32(part_of.len()) {
@@ -176,19 +183,23 @@ fn smooth(graph: &Graph, part_of: &mut [u32]) {
     }
 }
 
-/// Cuts down to pieces of `most` faces; `names` says what each vertex is called.
+/// Cuts a graph down to pieces of at most `most` faces; `names` has the number of each vertex in
+/// the whole graph, which the pieces use.
 fn cut(graph: &Graph, names: Vec<u32>, most: u64, cutting: &Cutting, seed: u64) -> CutTree {
     let weight = graph.weight();
     if weight <= most || names.len() < 2 {
         return CutTree::Piece(names);
     }
+
     let mut side = sides(graph, cutting, seed);
     if side.iter().all(|&second| second == side[0]) {
-        // Too few and too uneven: any cut ends.
+        // One side is empty: without this fallback the recursion would not end.
         let half = side.len() / 2;
         let places = side.iter_mut().enumerate();
         places.for_each(|(i, side)| *side = i < half);
     }
+
+    // Each half has a seed that depends on what it is, not on the thread.
     let next = |(graph, inside): (Graph, Vec<u32>)| {
         let names: Vec<u32> = inside.iter().map(|&i| names[i as usize]).collect();
         let first = u64::from(names[0]) + 1;
@@ -203,10 +214,12 @@ fn cut(graph: &Graph, names: Vec<u32>, most: u64, cutting: &Cutting, seed: u64) 
         }
         false => halves.map(next),
     };
+
     let len = halves.iter().map(CutTree::len).sum();
     CutTree::Cut(Box::new(halves), len)
 }
 
+/// Whether each vertex is on the second side of a cut.
 fn sides(graph: &Graph, cutting: &Cutting, seed: u64) -> Vec<bool> {
     match cutting.cutter {
         Cutter::Multilevel => {
@@ -232,12 +245,12 @@ fn sides(graph: &Graph, cutting: &Cutting, seed: u64) -> Vec<bool> {
             };
             match metis.partition(graph) {
                 Ok(parts) => parts.into_iter().map(|part| part == 1).collect(),
-                // What METIS refuses is cut all the same.
+                // Where METIS refuses, the caller's fallback cuts.
                 Err(_) => vec![false; graph.vertex_count()],
             }
         }
     }
 }
 
-/// Up to so many vertices are cut without making them coarser.
+/// Graphs of at most this many vertices are cut without making them coarser.
 const COARSEST: usize = 2000;

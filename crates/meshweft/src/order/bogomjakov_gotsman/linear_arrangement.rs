@@ -1,17 +1,18 @@
 //! Minimum linear arrangement: each vertex's faces close together in the sequence.
 //!
 //! The *length* of a vertex is the distance between its first and its last face; [`cost`] adds them
-//! up. Bogomjakov & Gotsman minimise the sum by turning the halves of a cut tree, for which R.
+//! up. Bogomjakov & Gotsman minimise the sum by swapping the halves of a cut tree, for which R.
 //! Bar-Yehuda, G. Even, J. Feldman, J. Naor: *Computing an Optimal Orientation of a Balanced
-//! Decomposition Tree for Linear Arrangement Problems*, Journal of Graph Algorithms and Applications
-//! 5(4), 2001, doi:10.7155/jgaa.00035, give a dynamic program. It stands here for hyperedges.
+//! Decomposition Tree for Linear Arrangement Problems*, Journal of Graph Algorithms and
+//! Applications 5(4), 2001, doi:10.7155/jgaa.00035, give a dynamic program. Here it is written for
+//! hyperedges.
 //!
-//! **Why no further.** The tree keeps neighbours together at every scale, and that is what makes the
-//! sequence good for small caches. The sum alone does not: its minimisers sweep a front of about
-//! √faces vertices over the whole mesh. Nearly every vertex then waits for a whole front, which only
-//! a cache larger than the front survives. Faces sorted by the Fiedler vector of the dual graph are
-//! such a sequence: less cost than any here, and in small caches little better than a random one. So
-//! this is a metric, and a way to orient a tree; it is not a goal.
+//! **Why no further.** The tree keeps neighbours together at every scale, and that makes the
+//! sequence good for small caches. The sum alone does not: orders that minimise it sweep a front of
+//! about √faces vertices over the whole mesh. Nearly every vertex is then needed again one front
+//! later, and only a cache larger than the front still has it. Faces sorted by the Fiedler vector
+//! of the dual graph are an example: less cost than any order here, and in small caches little
+//! better than a random order. So the sum is a metric and a way to orient a tree, but not a goal.
 
 use super::cut_tree::{CutTree, Cutter, Cutting};
 use crate::cache::CacheModel;
@@ -22,7 +23,7 @@ use crate::partition::Graph;
 use crate::permutation::{FaceOrder, Permutation};
 use crate::topology::Adjacency;
 
-/// The sum over all used vertices of the distance from their first to their last face.
+/// The sum, over all used vertices, of the distance from their first to their last face, in faces.
 ///
 /// ```
 /// use meshweft::order::bogomjakov_gotsman::linear_arrangement_cost;
@@ -38,7 +39,7 @@ pub fn cost<'a>(faces: impl Into<Faces<'a>>) -> u64 {
     let faces = faces.into();
     let mut last = vec![UNUSED; faces.vertex_count()];
     let mut cost = 0;
-    for (i, face) in (0..).zip(faces.corners()) {
+    for (i, face) in (0..).zip(faces.as_slice()) {
         for &vertex in face {
             let last = &mut last[vertex as usize];
             if *last != UNUSED {
@@ -64,12 +65,12 @@ pub fn cost<'a>(faces: impl Into<Faces<'a>>) -> u64 {
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LinearArrangement {
-    /// How many levels of the tree are oriented together, from 1 to 6. All of them would be the
-    /// paper's method; each level more takes twice the time.
+    /// How many levels of the tree are oriented together, from 1 to 6. The paper orients all of
+    /// them; each further level doubles the time.
     pub levels: u32,
-    /// Who finds the cuts.
+    /// Which algorithm finds the cuts.
     pub cutter: Cutter,
-    /// Where random numbers start.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// Forbids turning corners.
     pub keep_corners: bool,
@@ -89,9 +90,9 @@ impl Default for LinearArrangement {
 impl LinearArrangement {
     /// The order in which to draw the faces.
     ///
-    /// The tree goes down to single faces. Its upper levels are oriented first, as if each subtree
-    /// below were one block; then each of these, with all others where they are. Corners are turned
-    /// so that hits come first in a FIFO cache of 12, unless that is forbidden.
+    /// The tree goes down to single faces. Its upper levels are oriented first, with each subtree
+    /// below them as one block; then each of these subtrees, with all others fixed. Corners are
+    /// turned so that hits come first in a FIFO cache of 12, unless that is forbidden.
     ///
     /// # Complexity
     /// Time O(faces · (log faces + 2^levels)), space 150 bytes a face.
@@ -115,7 +116,7 @@ impl LinearArrangement {
     }
 }
 
-/// The faces of the tree from the first leaf to the last, its halves turned as is best.
+/// The faces of the tree from the first leaf to the last, with its halves in the best order.
 pub(super) fn oriented(tree: &CutTree, faces: Faces<'_>, levels: u32) -> Vec<u32> {
     let face_count = faces.len();
     let mut orienting = Orienting {
@@ -128,6 +129,7 @@ pub(super) fn oriented(tree: &CutTree, faces: Faces<'_>, levels: u32) -> Vec<u32
         blocks: 0,
         sequence: vec![0; face_count],
     };
+
     // Subtrees whose place is known, each with its first position.
     let mut placed = vec![(tree, 0)];
     while let Some((tree, start)) = placed.pop() {
@@ -136,16 +138,18 @@ pub(super) fn oriented(tree: &CutTree, faces: Faces<'_>, levels: u32) -> Vec<u32
     orienting.sequence
 }
 
+/// A tree being oriented.
 struct Orienting<'a> {
     faces: Faces<'a>,
     adjacency: Adjacency,
     levels: u32,
-    /// Where the subtree of each face starts that is known to be placed.
+    /// For each face, the first position of the smallest placed subtree that has it.
     starts: Vec<u32>,
-    /// Which of the blocks of the subtree at work each face is in.
+    /// For each face of the current subtree, the number of its block.
     unit_of: Vec<u8>,
-    /// The last subtree that each vertex was seen in.
+    /// The last subtree that each vertex was seen in, by its number.
     seen: Vec<u32>,
+    /// The number of the current subtree.
     blocks: u32,
     sequence: Vec<u32>,
 }
@@ -153,7 +157,8 @@ struct Orienting<'a> {
 /// Blocks of a subtree as a bit set.
 type Units = u64;
 
-/// The blocks that a vertex's faces touch, and whether it also has faces before or after this subtree.
+/// The blocks that a vertex's faces touch, and whether it also has faces before or after this
+/// subtree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Span {
     units: Units,
@@ -161,7 +166,8 @@ struct Span {
     is_behind: bool,
 }
 
-/// The upper levels of a subtree.
+/// The upper levels of a subtree; a `Unit` is a block below them, a `Cut` has the set of its blocks
+/// and its number of faces.
 enum Upper {
     Unit(u32),
     Cut(Box<[Upper; 2]>, Units, u64),
@@ -191,6 +197,7 @@ impl Orienting<'_> {
             self.sequence[start as usize..end].copy_from_slice(faces);
             return;
         }
+
         let mut units = Vec::new();
         let upper = upper(tree, self.levels, &mut units);
         let spans = self.spans(&units, start);
@@ -198,6 +205,8 @@ impl Orienting<'_> {
         let lens: Vec<u64> = units.iter().map(|unit| unit.len() as u64).collect();
         let (_, best) = best(&upper, &lens, &spans, [0; 2]);
         in_order(&upper, &mut best.iter(), &mut order);
+
+        // The blocks have their places now; they are oriented later.
         let mut start = start;
         for unit in order {
             let unit = units[unit as usize];
@@ -207,20 +216,24 @@ impl Orienting<'_> {
         }
     }
 
-    /// The vertices that are in several blocks or also outside, and how often there are such.
+    /// The distinct spans of the vertices that are in several blocks or also outside, and how many
+    /// vertices have each.
     fn spans(&mut self, units: &[&CutTree], start: u32) -> Vec<(Span, u64)> {
         for (number, unit) in (0..).zip(units) {
             unit.for_each_face(&mut |face| self.unit_of[face as usize] = number);
         }
+
         self.blocks += 1;
         let mut spans = Vec::new();
         for unit in units {
             unit.for_each_face(&mut |face| {
-                for vertex in self.faces.corners()[face as usize] {
+                for vertex in self.faces.as_slice()[face as usize] {
                     let seen = &mut self.seen[vertex as usize];
                     if std::mem::replace(seen, self.blocks) == self.blocks {
                         continue;
                     }
+
+                    // A face outside the subtree is before or after it by where its own starts.
                     let mut span = Span {
                         units: 0,
                         is_before: false,
@@ -235,19 +248,22 @@ impl Orienting<'_> {
                             }
                         }
                     }
+
                     if span.is_before || span.is_behind || !span.units.is_power_of_two() {
                         spans.push(span);
                     }
                 }
             });
         }
+
+        // Count the equal ones.
         spans.sort_unstable();
         let alike = spans.chunk_by(|a, b| a == b);
         alike.map(|group| (group[0], group.len() as u64)).collect()
     }
 }
 
-/// Cuts down to `levels` below the tree; what is left are the blocks.
+/// The upper `levels` levels of a tree; the subtrees below them are appended to `units` as blocks.
 fn upper<'t>(tree: &'t CutTree, levels: u32, units: &mut Vec<&'t CutTree>) -> Upper {
     match tree {
         CutTree::Cut(halves, len) if levels > 0 => {
@@ -262,49 +278,56 @@ fn upper<'t>(tree: &'t CutTree, levels: u32, units: &mut Vec<&'t CutTree>) -> Up
     }
 }
 
-/// The least cost of a subtree between blocks `around` it, before and behind; and for each cut from
-/// the root down whether the second half comes first.
+/// The least cost of a subtree with the blocks `around` it, before and after; and for each cut,
+/// from the root down, whether its second half comes first.
 ///
-/// Where one half lies between two faces of a vertex without having one, the vertex is as much
-/// longer as that half has faces. That is all that an orientation changes: a vertex that has faces
-/// in both halves, or in none, is as long either way.
+/// If a half lies between two faces of a vertex and has none of that vertex's faces, the vertex
+/// gets longer by the number of faces in that half. An orientation changes nothing else: a vertex
+/// with faces in both halves, or in neither, has the same length either way.
 fn best(tree: &Upper, lens: &[u64], spans: &[(Span, u64)], around: [Units; 2]) -> (u64, Vec<bool>) {
     let Upper::Cut(halves, units, _) = tree else {
         return (0, Vec::new());
     };
-    let [before, behind] = around;
-    // Only these matter to the halves, too.
+    let [before, after] = around;
+
+    // Only these vertices matter, also to the halves.
     let spans: Vec<(Span, u64)> = spans
         .iter()
         .filter(|(span, _)| span.units & units != 0)
         .copied()
         .collect();
+
     let ways = [false, true].map(|is_turned| {
         let [first, second] = match is_turned {
             false => [&halves[0], &halves[1]],
             true => [&halves[1], &halves[0]],
         };
         let sets = [first, second].map(Upper::units);
+
+        // Vertices that get longer because a half of this cut is in between.
         let mut cost = 0;
         for (span, count) in &spans {
             let [in_first, in_second] = sets.map(|set| span.units & set != 0);
             let is_before = span.is_before || span.units & before != 0;
-            let is_behind = span.is_behind || span.units & behind != 0;
-            if in_first && !in_second && is_behind {
+            let is_after = span.is_behind || span.units & after != 0;
+            if in_first && !in_second && is_after {
                 cost += count * second.len(lens);
             }
             if in_second && !in_first && is_before {
                 cost += count * first.len(lens);
             }
         }
+
+        // The cuts inside each half, with the other half around it.
         let inside = [
-            best(first, lens, &spans, [before, behind | sets[1]]),
-            best(second, lens, &spans, [before | sets[0], behind]),
+            best(first, lens, &spans, [before, after | sets[1]]),
+            best(second, lens, &spans, [before | sets[0], after]),
         ];
         cost += inside[0].0 + inside[1].0;
         let turns = [vec![is_turned], inside.map(|(_, turns)| turns).concat()];
         (cost, turns.concat())
     });
+
     let [straight, turned] = ways;
     if turned.0 < straight.0 {
         turned
@@ -313,7 +336,7 @@ fn best(tree: &Upper, lens: &[u64], spans: &[(Span, u64)], around: [Units; 2]) -
     }
 }
 
-/// The blocks from first to last.
+/// Appends the blocks from first to last; `turns` as [`best`] gives them.
 fn in_order<'b>(tree: &Upper, turns: &mut impl Iterator<Item = &'b bool>, order: &mut Vec<u32>) {
     match tree {
         Upper::Unit(unit) => order.push(*unit),

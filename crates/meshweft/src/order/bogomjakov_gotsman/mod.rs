@@ -1,16 +1,16 @@
-//! Orders that know of no cache size, by recursive cuts.
+//! Orders that are made for no particular cache size, by recursive cuts.
 //!
-//! Alexander Bogomjakov, Craig Gotsman: *Universal Rendering Sequences for Transparent Vertex Caching
-//! of Progressive Meshes*, Computer Graphics Forum 21(2), 2002, doi:10.1111/1467-8659.00573. The mesh
-//! is cut in two with few edges between the halves, each half again, down to a few faces: a sequence
-//! along that tree keeps neighbours together at every scale, like a space-filling curve. The paper
-//! orients the tree in two ways, by what is near the cut ([`RecursiveCut`]) and by the minimum linear
-//! arrangement problem ([`LinearArrangement`]).
+//! Alexander Bogomjakov, Craig Gotsman: *Universal Rendering Sequences for Transparent Vertex
+//! Caching of Progressive Meshes*, Computer Graphics Forum 21(2), 2002,
+//! doi:10.1111/1467-8659.00573. The mesh is cut in two with few edges between the halves, then each
+//! half again, down to a few faces. A sequence along that tree keeps neighbours together at every
+//! scale, like a space-filling curve. The paper orients the tree in two ways: by what is near the
+//! cut ([`RecursiveCut`]) and by the minimum linear arrangement problem ([`LinearArrangement`]).
 //!
-//! Here they are for the record and for caches of some hundred vertices. A search for the target
+//! They are here to compare with, and for caches of some hundred vertices. A search for the target
 //! [`Universal`](super::Target::Universal) misses less in every cache up to 64.
 //!
-//! Read `cut_tree` for the tree, `seam` for what two halves save.
+//! Read `cut_tree` for the tree, `seam` for what it saves to draw one half after the other.
 
 mod cut_tree;
 mod linear_arrangement;

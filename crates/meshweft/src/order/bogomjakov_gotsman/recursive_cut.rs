@@ -1,12 +1,12 @@
-//! Recursive cut: half of the mesh, then the other half, and so within each.
+//! Recursive cut: half of the mesh, then the other half, and the same within each.
 //!
 //! The paper draws one half, then the faces along the cut, then the other half, and wants the exit
 //! from the first to be near the entry into the second. Where it leaves room:
 //! - *What is cut*: the dual graph, so that each face is in one half.
 //! - *Pieces*: sixteen faces or less are drawn as K-Cache-Reorder for a FIFO cache of 12 would.
-//! - *Which half is first, and which end*: from the pieces up, the best of all eight ways to draw two
-//!   halves one after the other, by simulation of what the second one finds in caches of 10, 12, 16
-//!   and 64 ([`seam`](super::seam)). This is worth more than better cuts.
+//! - *Which half is first, and from which end*: from the pieces up, the best of all eight ways to
+//!   draw two halves one after the other, by simulating what the second one finds in caches of 10,
+//!   12, 16 and 64 ([`seam`](super::seam)). This is worth more than better cuts.
 
 use super::cut_tree::{CutTree, Cutter, Cutting};
 use super::seam::{PartSequence, SeamCaches};
@@ -31,11 +31,11 @@ use crate::permutation::{FaceOrder, Permutation};
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecursiveCut {
-    /// Pieces of so many faces are not cut any more.
+    /// Pieces of at most this many faces are not cut further.
     pub piece: u32,
-    /// Who finds the cuts.
+    /// Which algorithm finds the cuts.
     pub cutter: Cutter,
-    /// Where random numbers start.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// Forbids turning corners.
     pub keep_corners: bool,
@@ -52,7 +52,7 @@ impl Default for RecursiveCut {
     }
 }
 
-/// Trees of more faces are put together on threads of their own.
+/// The halves of a tree of more faces are joined on two threads.
 const ALONE: usize = 1 << 16;
 
 impl RecursiveCut {
@@ -66,15 +66,16 @@ impl RecursiveCut {
     pub fn face_order<'a>(&self, faces: impl Into<Faces<'a>>) -> FaceOrder {
         let faces = faces.into();
 
-        // Pieces are drawn as the greedy would: so the faces are cut in its order.
+        // Faces are numbered in the greedy's order, so that pieces are drawn in that order.
         let inside = KCacheReorder {
             cache: CacheModel::fifo(12),
             keep_corners: true,
             ..KCacheReorder::default()
         };
         let inside = inside.face_order(faces);
-        let in_order = inside.apply(faces.corners());
+        let in_order = inside.apply(faces.as_slice());
         let in_order = Faces::of_checked(&in_order, faces.vertex_count());
+
         let graph = Graph::dual(in_order);
         let cutting = Cutting {
             piece: self.piece,
@@ -93,6 +94,7 @@ impl RecursiveCut {
     }
 }
 
+/// Joins the halves of a tree, from the pieces up.
 struct Join<'a> {
     faces: Faces<'a>,
 }
@@ -102,7 +104,7 @@ impl Join<'_> {
         SeamCaches::new(self.faces)
     }
 
-    /// Large halves side by side.
+    /// The sequence of a tree, with large halves on threads of their own.
     fn apart(&self, tree: CutTree) -> PartSequence {
         match tree {
             CutTree::Cut(halves, len) if len > ALONE => {
@@ -117,6 +119,7 @@ impl Join<'_> {
     }
 }
 
+/// The sequence of a tree, on one thread.
 fn together(tree: CutTree, caches: &mut SeamCaches<'_>) -> PartSequence {
     match tree {
         CutTree::Piece(faces) => caches.sequence(faces),

@@ -1,24 +1,25 @@
-//! What two sequences save when one is drawn after the other.
+//! How many misses two sequences save when one is drawn right after the other.
 
 use crate::faces::Faces;
 
-/// Sizes of the FIFO caches that a seam is judged by.
+/// Sizes of the FIFO caches in which misses are counted.
 const SIZES: Lanes = [10, 12, 16, 64];
 const LANES: usize = 4;
 /// A number for each cache.
 type Lanes = [u32; LANES];
 
-/// How far a seam reaches into the faces at its two sides.
+/// How many faces on each side of a seam are simulated.
 const REACH: usize = 40;
 
-/// FIFO caches of several sizes side by side.
+/// FIFO caches of several sizes, simulated together.
 ///
-/// Whether a corner is there is asked before its face is drawn, as if hits came first.
+/// The corners of a face are looked up before any of them is pushed, as if hits came first.
 pub(super) struct SeamCaches<'a> {
     faces: &'a [[u32; 3]],
-    /// The push that each vertex entered each cache with.
+    /// The number of the push with which each vertex entered each cache.
     entered: Vec<Lanes>,
     pushes: Lanes,
+    /// The vertices that a trial changed, as they were before.
     overwritten: Vec<(u32, Lanes)>,
 }
 
@@ -27,20 +28,21 @@ pub(super) struct SeamCaches<'a> {
 pub(super) struct PartSequence {
     pub(super) faces: Vec<u32>,
     misses: [u32; 2],
-    /// The same of the first [`REACH`] faces from either end.
+    /// The same for the first [`REACH`] faces from either end.
     head_misses: [u32; 2],
 }
 
 impl<'a> SeamCaches<'a> {
     pub(super) fn new(faces: Faces<'a>) -> Self {
         Self {
-            faces: faces.corners(),
+            faces: faces.as_slice(),
             entered: vec![[0; LANES]; faces.vertex_count()],
             pushes: [0; LANES],
             overwritten: Vec::new(),
         }
     }
 
+    /// Empties the caches: as many pushes pass as each one has entries.
     fn empty(&mut self) {
         if self.pushes.iter().any(|&pushes| pushes > u32::MAX / 2) {
             self.entered.fill([0; LANES]);
@@ -51,12 +53,13 @@ impl<'a> SeamCaches<'a> {
         }
     }
 
-    /// Draws a face.
+    /// Draws a face; with `UNDO`, remembers what it overwrites.
     #[inline]
     fn draw<const UNDO: bool>(&mut self, face: u32) {
         let corners = self.faces[face as usize];
         let before = corners.map(|corner| self.entered[corner as usize]);
         let start = self.pushes;
+
         for (corner, before) in corners.into_iter().zip(before) {
             let mut entered = before;
             for lane in 0..LANES {
@@ -75,7 +78,7 @@ impl<'a> SeamCaches<'a> {
         }
     }
 
-    /// Misses of the faces in all caches together.
+    /// Draws the faces; returns their misses, added up over the caches.
     fn draw_all(&mut self, faces: impl Iterator<Item = u32>) -> u32 {
         let before = self.pushes;
         for face in faces {
@@ -84,6 +87,7 @@ impl<'a> SeamCaches<'a> {
         self.since(before)
     }
 
+    /// How many pushes there were since `before`.
     fn since(&self, before: Lanes) -> u32 {
         let misses = self
             .pushes
@@ -93,7 +97,7 @@ impl<'a> SeamCaches<'a> {
         misses.sum()
     }
 
-    /// Misses of the faces in the caches as they are, which are left so.
+    /// The misses that drawing the faces would have now; the caches stay as they are.
     fn tried(&mut self, faces: impl Iterator<Item = u32>) -> u32 {
         let before = self.pushes;
         for face in faces {
@@ -107,7 +111,7 @@ impl<'a> SeamCaches<'a> {
         misses
     }
 
-    /// The faces as they are.
+    /// A piece: its faces in the given order.
     pub(super) fn sequence(&mut self, faces: Vec<u32>) -> PartSequence {
         self.empty();
         let forward = self.draw_all(faces.iter().copied());
@@ -116,6 +120,8 @@ impl<'a> SeamCaches<'a> {
         self.with_heads(faces, [forward, backward], [None; 2])
     }
 
+    /// The sequence with the misses of its first faces from both ends, which are counted where they
+    /// are not `known`.
     fn with_heads(
         &mut self,
         faces: Vec<u32>,
@@ -141,7 +147,8 @@ impl<'a> SeamCaches<'a> {
     /// The best of the eight ways to draw two sequences one after the other: either first, each
     /// forward or backward.
     pub(super) fn joined(&mut self, pair: [PartSequence; 2]) -> PartSequence {
-        // By way: which is first, whether it is turned, whether the other is.
+        // A way is three bits: which is first, whether it is reversed, whether the other one is.
+        // The second sequence meets a cache that the end of the first one has filled.
         let mut misses = [0_u32; 8];
         for (way, misses) in misses.chunks_exact_mut(2).enumerate() {
             let (first, turned) = (way >> 1, way & 1);
@@ -154,14 +161,18 @@ impl<'a> SeamCaches<'a> {
                 *misses = a.misses[turned] + b.misses[other] + warm - b.head_misses[other];
             }
         }
-        // From the back it is the other one, turned round, before the first one, turned round.
+
+        // Read from the back, a way is the other sequence, reversed, before the first one,
+        // reversed.
         let backward = |way: usize| {
             let (other, turned, other_turned) = (1 - (way >> 2), 1 - (way & 1), 1 - (way >> 1 & 1));
             other << 2 | turned << 1 | other_turned
         };
+
         let ways = 0..misses.len();
         let best = ways.min_by_key(|&way| (misses[way], misses[backward(way)]));
         let way = best.unwrap_or_default();
+
         let (first, a, b) = (way >> 2, way >> 1 & 1, way & 1);
         let (front, back) = (&pair[first], &pair[1 - first]);
         let faces = front.from(a == 1).chain(back.from(b == 1)).collect();
@@ -174,7 +185,7 @@ impl<'a> SeamCaches<'a> {
 }
 
 impl PartSequence {
-    /// Its faces from the front or from the back.
+    /// Its faces, from the front or from the back.
     fn from(&self, backward: bool) -> impl Iterator<Item = u32> {
         let last = self.faces.len().wrapping_sub(1);
         let at = move |i: usize| if backward { last - i } else { i };

@@ -1,4 +1,4 @@
-//! Against brute force.
+//! Compared with brute force.
 
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::order::baselines;
 use crate::partition::Graph;
 use crate::permutation::FaceOrder;
 
-/// Any faces at all.
+/// Random faces.
 fn soups() -> impl Strategy<Value = Mesh> {
     (3..40_u32).prop_flat_map(|n| {
         prop::collection::vec([0..n, 0..n, 0..n], 0..80)
@@ -37,7 +37,7 @@ fn tree(mesh: &Mesh, piece: u32) -> CutTree {
     CutTree::new(&graph, &cutting)
 }
 
-/// Every sequence that turning halves gives.
+/// Every sequence that swapping halves gives.
 fn all_sequences(tree: &CutTree) -> Vec<Vec<u32>> {
     match tree {
         CutTree::Piece(faces) => vec![faces.clone()],

@@ -2,19 +2,20 @@
 
 use crate::cache::MAX_CACHE_SIZE;
 
-/// `C(v) = k1·C1 − k2·C2 + k3·C3` times a common denominator, less what all vertices share.
+/// `C(v) = k1·C1 − k2·C2 + k3·C3` times a common denominator, without the term that all vertices
+/// share.
 ///
-/// With `C3 = (K − age) / K`, `k3` is the same for all and drops out of comparisons.
+/// With `C3 = (K − age) / K`, that term is `k3`: it drops out of comparisons.
 ///
-/// Sums wrap around where absurd weights meet absurd valences: such an order is poor, but it is
-/// an order, and the same on every platform.
+/// Sums wrap around at extreme weights and valences. The order is then poor, but complete and the
+/// same on every platform.
 #[derive(Debug, Clone)]
 pub(in crate::order) struct Costs {
     push: i64,
     face: i64,
-    /// What a push since it entered takes off a vertex's cost: `k3 / K`.
+    /// Taken off a vertex's cost for each push since it entered: `k3 / K`.
     age: i64,
-    /// A push less the age that it adds.
+    /// A push, less what the age that it adds takes off.
     aging_push: i64,
 }
 
@@ -35,13 +36,14 @@ impl Costs {
         }
     }
 
-    /// The cost if `pushes` are needed, none of the vertex itself, from the state before them.
+    /// The cost estimated before drawing, if finishing the vertex takes `pushes`, none of them its
+    /// own; `age` is counted before them.
     #[inline]
     pub(in crate::order) fn of(&self, pushes: u32, faces: u32, age: u32) -> i64 {
         Self::sum(self.aging_push, self.face, self.age, pushes, faces, age)
     }
 
-    /// The cost from the state after the vertex was finished.
+    /// The cost measured after the vertex was finished; `age` is counted then.
     #[inline]
     pub(in crate::order) fn after_run(&self, pushes: u32, faces: u32, age: u32) -> i64 {
         Self::sum(self.push, self.face, self.age, pushes, faces, age)

@@ -1,6 +1,7 @@
-//! What every traversal asks of a vertex: which of its faces are left, and what they need at least.
+//! Which faces of a vertex are left, and the fewest pushes that they need.
 
-/// Writes the faces of a row that are not drawn, in their order, to the front of `buffer`; how many.
+/// Writes the faces of a row that are not drawn, in their order, to the front of `buffer`; returns
+/// how many.
 #[inline]
 pub(in crate::order) fn gather_live(
     row: impl ExactSizeIterator<Item = u32>,
@@ -13,18 +14,18 @@ pub(in crate::order) fn gather_live(
     let live = &mut buffer[..row.len()];
     let mut count = 0;
     for face in row {
-        // Written in any case and kept only if live: no branch for the processor to guess.
+        // Always written and kept only if live: no branch for the processor to guess.
         live[count] = face;
         count += usize::from(!drawn[face as usize]);
     }
     count
 }
 
-/// How many neighbours a vertex needs at least, if its fan is a surface's: `live` faces are left
-/// around it, and `missing` of their other corners are not there.
+/// The fewest neighbours of a vertex that must be pushed to finish it, on a surface: `live` faces
+/// are left around it, and `missing` of their other corners are not in the cache.
 ///
-/// A neighbour is a corner of one live face, or of two if it is inside the fan. One face being
-/// drawn, the fan is open: `n` live faces share at most `n − 1` neighbours.
+/// A neighbour is a corner of one live face, or of two if it is inside the fan. A vertex in the
+/// cache has a drawn face, so its fan is open: `n` live faces share at most `n − 1` neighbours.
 #[inline]
 pub(in crate::order) fn least_neighbours(missing: u32, live: u32) -> u32 {
     missing.div_ceil(2).max((missing + 1).saturating_sub(live))

@@ -1,4 +1,9 @@
 //! Which faces of each vertex are not drawn yet, and how many of their corners are white.
+//!
+//! The counts of white corners are `u32`, changed by wrapping additions: a change of −1 is
+//! `1_u32.wrapping_neg()`. One addition then serves both signs, and multiplying the change by 0 or
+//! 1 skips drawn faces without a branch. No count falls below 0: a white corner is counted from the
+//! start, or when it leaves the cache, and taken off once, when it enters or its face is drawn.
 
 use std::ops::Range;
 
@@ -7,28 +12,33 @@ use crate::faces::Faces;
 use crate::index::index32;
 use crate::topology::rows;
 
-/// A vertex on more faces than this is a *hub*: its comings and goings are not announced to its
-/// neighbours and it is not run tentatively. That bounds the work of a step, whatever the valence.
+/// A vertex on more faces than this is a *hub*. Its pushes and evictions are not announced to its
+/// neighbours, and it is not drawn tentatively: this bounds the work of a step for any valence. In
+/// return the counts of its neighbours may be too high, which can cost quality, nothing else. The
+/// number was not tuned.
 pub(in crate::order) const HUB: u32 = 256;
 
-/// Live counts from this on share one dead-end stack.
+/// How many dead-end stacks there are: one a live count, and the last one for all counts from this
+/// on, which are not told apart. This bounds the search at a dead end. The number was not tuned.
 const STACKS: usize = 8;
 
-/// What a step needs to know of a vertex, side by side in memory.
+/// What a step needs to know of a vertex, in one place in memory.
 #[derive(Clone, Copy, Default)]
 pub(in crate::order) struct LiveVertex {
-    /// FIFO: the clock when it was last pushed, 0 before. Controllable: whether it is in the cache.
+    /// FIFO: the clock at its last push, 0 before. Controllable: the number of its push, 0 while it
+    /// is not in the cache.
     pub(in crate::order) entered: u32,
     /// Start of its row of faces; the next vertex's start ends it.
     row: u32,
     /// Its corners in faces that are not drawn yet. 0: black.
     pub(in crate::order) live: u32,
-    /// White corners of its live faces: its neighbours', and while it is white its own.
+    /// White corners of its live faces: its neighbours', and its own while it is white.
     pub(in crate::order) white_corners: u32,
 }
 
 impl LiveVertex {
-    /// How many white neighbours it has at least, if it is in the cache; see [`least_neighbours`].
+    /// The fewest white neighbours that it can have, if it is in the cache; see
+    /// [`least_neighbours`].
     #[inline]
     pub(in crate::order) fn white_neighbours(&self) -> u32 {
         least_neighbours(self.white_corners, self.live)
@@ -40,22 +50,23 @@ pub(in crate::order) struct LiveFaces<'a> {
     pub(in crate::order) faces: &'a [[u32; 3]],
     /// One more entry than vertices, so that each row has an end.
     pub(in crate::order) vertices: Vec<LiveVertex>,
-    /// Rows of face numbers, drawn faces included.
+    /// Rows of face numbers, including drawn faces.
     rows: Vec<u32>,
     /// Whether each face is drawn. Bytes, not bits: they are tested more often than a row is read.
     drawn: Vec<bool>,
-    /// Vertices that left the cache unfinished, by live count.
+    /// Vertices that left the cache unfinished, by their live count then. An entry whose vertex has
+    /// another count by now is out of date.
     dead_ends: [Vec<u32>; STACKS],
-    /// Whether any of these stacks may hold something.
+    /// Whether a dead-end stack may have entries.
     stranded: bool,
-    /// No vertex before this one is untouched.
+    /// No vertex before this one has live faces.
     untouched: u32,
 }
 
 impl<'a> LiveFaces<'a> {
     /// No face is drawn and every vertex is white.
     pub(in crate::order) fn new(faces: Faces<'a>) -> Self {
-        let (faces, vertex_count) = (faces.corners(), faces.vertex_count());
+        let (faces, vertex_count) = (faces.as_slice(), faces.vertex_count());
 
         // Live counts, and from them where each row ends.
         let mut vertices = vec![LiveVertex::default(); vertex_count + 1];
@@ -71,11 +82,13 @@ impl<'a> LiveFaces<'a> {
             vertex.white_corners = vertex.live.wrapping_mul(3);
         }
 
-        // Rows whose starts stand with their vertices: no second line of memory for a row.
+        // Filling moves each `row` back to the start of its row. Kept with the vertex, it costs no
+        // second cache line.
         let mut entries = vec![0; faces.len() * 3];
         let numbered = (0..index32(faces.len())).zip(faces).rev();
         let items = numbered.map(|(face, corners)| corners.map(|corner| (corner, face)));
-        rows::place_from_behind(&mut vertices, |vertex| &mut vertex.row, items, &mut entries);
+        rows::place_backwards(&mut vertices, |vertex| &mut vertex.row, items, &mut entries);
+
         Self {
             faces,
             vertices,
@@ -94,14 +107,15 @@ impl<'a> LiveFaces<'a> {
         start..end
     }
 
-    /// Writes the live faces of `vertex`, in file order, to the front of `buffer`; how many.
+    /// Writes the live faces of `vertex`, in file order, to the front of `buffer`; returns their
+    /// number.
     #[inline]
     pub(in crate::order) fn gather(&self, vertex: u32, buffer: &mut Vec<u32>) -> usize {
         let row = self.rows[self.row(vertex)].iter().copied();
         gather_live(row, &self.drawn, buffer)
     }
 
-    /// Shows the corners of each live face of `vertex`, unless it is a hub.
+    /// Calls `visit` with the corners of each live face of `vertex`, unless it is a hub.
     #[inline]
     pub(in crate::order) fn for_each_live_face(
         &self,
@@ -118,7 +132,8 @@ impl<'a> LiveFaces<'a> {
         }
     }
 
-    /// Marks `face` drawn; false if it was (a face that names a vertex twice is met twice).
+    /// Marks `face` drawn; false if it was already (a face that names a vertex twice is gathered
+    /// twice).
     #[inline]
     pub(in crate::order) fn mark_drawn(&mut self, face: u32) -> bool {
         !std::mem::replace(&mut self.drawn[face as usize], true)
@@ -140,15 +155,16 @@ impl<'a> LiveFaces<'a> {
         self.announce(vertex, 1_u32.wrapping_neg());
     }
 
-    /// Tells the neighbours of `vertex` that it left the cache, and remembers it for dead ends.
+    /// Tells the neighbours of `vertex` that it left the cache, and keeps it for dead ends.
     #[inline]
     pub(in crate::order) fn announce_unfinished_exit(&mut self, vertex: u32) {
         self.announce(vertex, 1);
+
         let slot = stack_of(self.vertices[vertex as usize].live);
         let stack = &mut self.dead_ends[slot];
         if stack.len() == stack.capacity() {
-            // Entries whose vertex was drawn further since then are of no use. If few go, there has
-            // to be more room, or the next entries would sift the stack again and again.
+            // Drop entries that are out of date. If few are, make more room, or the next entries
+            // would sift the stack again and again.
             let vertices = &self.vertices;
             stack.retain(|&v| stack_of(vertices[v as usize].live) == slot);
             if stack.len() > stack.capacity() / 2 {
@@ -159,8 +175,8 @@ impl<'a> LiveFaces<'a> {
         self.stranded = true;
     }
 
-    /// Adds `change` to the white corners of all corners of the live faces of a vertex that is no
-    /// hub.
+    /// Adds `change`, 1 or a wrapped −1, to the white corners of each corner of each live face of
+    /// `vertex`, unless it is a hub.
     #[inline]
     fn announce(&mut self, vertex: u32, change: u32) {
         let row = self.row(vertex);
@@ -177,9 +193,9 @@ impl<'a> LiveFaces<'a> {
         }
     }
 
-    /// Where to go on when no live vertex is in the cache: the vertex with the fewest live faces
-    /// among those that left it unfinished, the last to leave first; else the first untouched one
-    /// in file order; `None` if all faces are drawn.
+    /// The next focus when no live vertex is in the cache: the vertex with the fewest live faces
+    /// among those that left it unfinished, ties to the last to leave; else the first in file order
+    /// that has live faces; `None` if all faces are drawn.
     pub(in crate::order) fn after_dead_end(&mut self) -> Option<u32> {
         if self.stranded {
             for (slot, stack) in self.dead_ends.iter_mut().enumerate() {
@@ -191,13 +207,14 @@ impl<'a> LiveFaces<'a> {
             }
             self.stranded = false;
         }
+
         let rest = &self.vertices[self.untouched as usize..];
         self.untouched += index32(rest.iter().position(|v| v.live != 0)?);
         Some(self.untouched)
     }
 }
 
-/// The dead-end stack of a live count; none for 0.
+/// The dead-end stack of a live count; `usize::MAX`, which is none, for 0.
 #[inline]
 fn stack_of(live: u32) -> usize {
     (live as usize).min(STACKS).wrapping_sub(1)

@@ -1,4 +1,4 @@
-//! What greedy traversals share: which faces are left, who is in the cache by age, costs in integers.
+//! What greedy traversals share: live faces, the vertices in the cache by age, costs in integers.
 
 mod costs;
 mod estimate;

@@ -1,9 +1,10 @@
-//! The vertices in the cache by age, tidied up while they are looked at.
+//! The vertices in the cache by age. Entries that are out of date are dropped when scanned.
 
 /// A vertex and the clock at its push: a vertex may leave and enter again.
 pub(in crate::order) type Entry = (u32, u32);
 
-/// The vertices in the cache, oldest first, among some that are finished or gone.
+/// The vertices in the cache, oldest first, mixed with entries of vertices that are finished or
+/// have left.
 pub(in crate::order) struct Queue {
     entries: Vec<Entry>,
     head: usize,
@@ -11,10 +12,10 @@ pub(in crate::order) struct Queue {
 }
 
 impl Queue {
-    /// An empty queue for at most `size` vertices that count.
+    /// An empty queue for at most `size` entries that count.
     pub(in crate::order) fn new(size: u32) -> Self {
         Self {
-            // The larger, the rarer the clean-up when the end is reached.
+            // Larger than needed, so that the clean-up when the end is reached is rare.
             entries: vec![(0, 0); 16 * (size as usize + 1)],
             head: 0,
             tail: 0,
@@ -27,7 +28,7 @@ impl Queue {
         &self.entries[self.head..self.tail]
     }
 
-    /// Puts an entry behind; `counts` says which of the others still count.
+    /// Appends an entry; at the end of the array, drops those for which `counts` is false.
     #[inline]
     pub(in crate::order) fn push(&mut self, entry: Entry, counts: impl Fn(Entry) -> bool) {
         if self.tail == self.entries.len() {
@@ -37,8 +38,8 @@ impl Queue {
         self.tail += 1;
     }
 
-    /// Puts `kept` in the place of the first `scanned` entries, of which they are those that count:
-    /// the others are passed over only once.
+    /// Replaces the first `scanned` entries by `kept`, those of them that count, so that the others
+    /// are scanned only once.
     #[inline]
     pub(in crate::order) fn replace_front(&mut self, scanned: usize, kept: &[Entry]) {
         self.head += scanned - kept.len();

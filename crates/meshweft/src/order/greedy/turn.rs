@@ -5,14 +5,14 @@ use crate::faces::turned;
 /// How a face is turned, and which of its turned corners may have to be pushed.
 pub(in crate::order) struct Turn {
     pub(in crate::order) rotation: u8,
-    /// Corners that are not in the cache when the face starts.
+    /// How many corners are not in the cache before the face is drawn.
     pub(in crate::order) misses: u32,
-    /// First turned corner to look at.
+    /// The first turned corner that may have to be pushed.
     first: usize,
 }
 
 impl Turn {
-    /// From 1 for each corner that is not in the cache, else 0.
+    /// The turn of a face; `missing` is 1 for each corner that is not in the cache, else 0.
     #[inline]
     pub(in crate::order) fn new<const KEEP_CORNERS: bool>(missing: [u32; 3]) -> Self {
         let misses = missing[0] + missing[1] + missing[2];
@@ -28,7 +28,7 @@ impl Turn {
         Self {
             rotation: HITS_FIRST[set as usize & 7],
             misses,
-            // Hits change nothing, and the misses are the last ones.
+            // A hit changes nothing, and the misses come last.
             first: 3 - misses as usize,
         }
     }

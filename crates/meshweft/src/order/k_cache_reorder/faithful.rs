@@ -1,6 +1,6 @@
 //! The paper read plainly: every candidate is run, nothing is kept between steps.
 //!
-//! Step numbers are those of Figs. 1 and 2. See the module above for the choices where the paper
+//! Step numbers are those of Figs. 1 and 2. See the parent module for the choices where the paper
 //! leaves room.
 
 use std::cmp::Reverse;
@@ -31,9 +31,10 @@ pub(super) fn face_order(
     evictions: Evictions,
     record: impl FnMut(CacheEvent),
 ) -> FaceOrder {
-    let (faces, vertex_count) = (task.faces.corners(), task.faces.vertex_count());
+    let (faces, vertex_count) = (task.faces.as_slice(), task.faces.vertex_count());
     let controllable = evictions == Evictions::Controllable;
     let size = task.size as usize;
+
     let adjacency = Adjacency::new(task.faces);
     let around = (0..index32(vertex_count))
         .map(|vertex| match evictions {
@@ -44,6 +45,7 @@ pub(super) fn face_order(
     let white = (0..index32(vertex_count))
         .map(|vertex| Reverse((adjacency.degree(vertex), vertex)))
         .collect();
+
     let reorder = Reorder {
         faces,
         size,
@@ -86,19 +88,22 @@ impl<R: FnMut(CacheEvent)> Reorder<'_, R> {
     fn run(mut self, first_focus: Option<u32>) -> Vec<u32> {
         let mut next = first_focus;
         while self.new_to_old.len() < self.faces.len() {
-            // 3-6
+            // 3-6: choose the focus.
             next = next.or_else(|| self.cheapest_gray());
             let Some(focus) = next.take().or_else(|| self.white_of_least_degree()) else {
                 break;
             };
-            // Who was in the buffer before may be popped to make room; who enters now may not.
+
+            // To make room, vertices that are in the buffer now are popped; those that enter for
+            // this focus only if no other is left.
             let before: Vec<u32> = self.buffer.iter().copied().collect();
+
             // 7
             for face in self.live_faces(focus) {
                 self.draw(face, &before); // 8-15
             }
-            // 16, 17: in a FIFO buffer black vertices at the front leave; no other push can have
-            // been in their way, so dropping them changes no one's membership and is left out.
+            // 16, 17 are left out: dropping black vertices from the front of a FIFO buffer does not
+            // change what else is in it.
         }
         self.new_to_old
     }
@@ -160,7 +165,7 @@ impl<R: FnMut(CacheEvent)> Reorder<'_, R> {
 
     fn draw(&mut self, face: u32, before: &[u32]) {
         let corners = self.faces[face as usize];
-        // A FIFO push may pop a vertex of this very face: push until all three are there.
+        // A FIFO push may pop a vertex of the same face: push until all three are there.
         while let Some(&corner) = corners.iter().find(|&&v| !self.gray[v as usize]) {
             if self.buffer.len() == self.size {
                 self.pop_one(corners, before); // 11, 12
@@ -180,7 +185,7 @@ impl<R: FnMut(CacheEvent)> Reorder<'_, R> {
         }
     }
 
-    /// Fig. 2.
+    /// Pops a vertex to make room (Fig. 2).
     fn pop_one(&mut self, corners: [u32; 3], before: &[u32]) {
         let leaving = if self.controllable {
             let others = self.buffer.iter().copied().filter(|v| !corners.contains(v));
@@ -209,7 +214,7 @@ impl<R: FnMut(CacheEvent)> Reorder<'_, R> {
     }
 }
 
-/// A FIFO buffer that goes its own way from the real one.
+/// A FIFO buffer that starts as a copy of the real one, which it leaves unchanged.
 struct TentativeRun<'a> {
     buffer: &'a VecDeque<u32>,
     /// How many of `buffer`, then of `pushed`, have left.
@@ -219,7 +224,7 @@ struct TentativeRun<'a> {
 }
 
 impl TentativeRun<'_> {
-    /// Places from the front to `vertex`'s last entry, if it has one that has not left.
+    /// Places from the front to the last entry of `vertex`; `None` if it has no entry or has left.
     fn place(&self, vertex: u32) -> Option<usize> {
         let entered = self.pushed.iter().rposition(|&v| v == vertex);
         let entered = entered.map(|i| self.buffer.len() + i);
@@ -243,9 +248,9 @@ impl TentativeRun<'_> {
     }
 }
 
-/// The faces of a row as they lie around `vertex`, clockwise (the next face's second edge at the
-/// vertex is this one's first), from the first in the file; where that ends, or the surface is no
-/// fan, from the first that is left.
+/// The faces of a row in clockwise order around `vertex` (the next face's second edge at the vertex
+/// is this one's first), starting with the first in the file. Where that ends, or the faces are not
+/// a fan, it goes on with the first face that is left.
 fn clockwise(vertex: u32, row: &[u32], faces: &[[u32; 3]]) -> Vec<u32> {
     // The vertices after and before `vertex` in a face.
     let edges = |face: u32| {
@@ -253,11 +258,13 @@ fn clockwise(vertex: u32, row: &[u32], faces: &[[u32; 3]]) -> Vec<u32> {
         let at = corners.iter().position(|&v| v == vertex).unwrap_or(0);
         (corners[(at + 1) % 3], corners[(at + 2) % 3])
     };
+
     // Faces that arrive at the vertex from each neighbour, the first in the file last.
     let mut arriving: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for &face in row.iter().rev() {
         arriving.entry(edges(face).1).or_default().push(face);
     }
+
     let mut placed: BTreeMap<u32, bool> = row.iter().map(|&face| (face, false)).collect();
     let mut around = Vec::with_capacity(row.len());
     for &start in row {
@@ -267,6 +274,7 @@ fn clockwise(vertex: u32, row: &[u32], faces: &[[u32; 3]]) -> Vec<u32> {
                 break;
             }
             around.push(face);
+
             let candidates = arriving.entry(edges(face).0).or_default();
             while candidates.last().is_some_and(|f| placed[f]) {
                 candidates.pop();

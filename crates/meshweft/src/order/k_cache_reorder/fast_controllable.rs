@@ -3,10 +3,10 @@
 //! The cost of a vertex is `k1` times its white neighbours minus `k2` times its live faces; the
 //! cheapest vertex in the cache is the next focus. A finished vertex leaves at once.
 //!
-//! Who has to make room is the vertex that will be needed last, as far as costs can tell: a vertex
-//! is needed when the first of the vertices that it still shares a face with, itself included,
-//! becomes the focus. So the least of their costs is compared, then its own, and ties go to the
-//! oldest. Both choices look at the oldest vertices only, which bounds a step whatever the size.
+//! To make room, the vertex that will be needed last leaves, as far as costs can tell. A vertex is
+//! needed when the first of the vertices that it still shares a face with, itself included, becomes
+//! the focus. So the least of their costs is compared, then its own, and ties go to the oldest.
+//! Both choices look at the oldest vertices only, which bounds a step for any cache size.
 //! (The paper compares own costs alone; that is .015 worse on scanned meshes at K = 12.)
 
 use std::hint::select_unpredictable;
@@ -16,8 +16,8 @@ use crate::cache::CacheEvent;
 use crate::order::greedy::{Costs, Entry, LiveFaces, Queue};
 use crate::permutation::{FaceOrder, Permutation};
 
-/// How many of the oldest vertices are looked at. More are no better: on four scanned and CAD meshes
-/// the mean at K = 128 is .517 with 64 and .521 with all.
+/// How many of the oldest vertices are looked at. More are no better: on four scanned and CAD
+/// meshes the mean at K = 128 is .517 with 64 and .521 with all.
 const CANDIDATES: usize = 64;
 
 /// Draws all faces; `record` receives each step of the schedule.
@@ -51,7 +51,7 @@ struct ControllableGrowth<'a, R> {
 
 impl<R: FnMut(CacheEvent)> ControllableGrowth<'_, R> {
     fn run(&mut self, first_focus: Option<u32>) {
-        let mut run = Vec::new();
+        let mut gathered = Vec::new();
         let mut next = first_focus;
         loop {
             let cheapest = self.cheapest_candidate();
@@ -59,16 +59,16 @@ impl<R: FnMut(CacheEvent)> ControllableGrowth<'_, R> {
             let Some(focus) = next.or_else(|| self.live.after_dead_end()) else {
                 return;
             };
-            let count = self.live.gather(focus, &mut run);
-            for &face in &run[..count] {
+            let count = self.live.gather(focus, &mut gathered);
+            for &face in &gathered[..count] {
                 self.draw(face);
             }
             next = None;
         }
     }
 
-    /// The oldest vertices in the cache, and how many they are; what has left is passed over for
-    /// good, so that a long run over a hub does not scan it again at every eviction.
+    /// The oldest vertices in the cache, and how many there are. Entries of vertices that have left
+    /// are dropped, so that drawing a hub does not scan them again at every eviction.
     fn oldest(&mut self) -> ([Entry; CANDIDATES], usize) {
         let mut oldest = [(0, 0); CANDIDATES];
         let (mut count, mut scanned) = (0, 0);
@@ -121,12 +121,15 @@ impl<R: FnMut(CacheEvent)> ControllableGrowth<'_, R> {
         if !self.live.mark_drawn(face) {
             return;
         }
+
+        // Marked first, so that its own pushes and what they evict are not announced to it.
         let corners = self.live.faces[face as usize];
         let missing = corners.map(|corner| {
             let vertex = &self.live.vertices[corner as usize];
             u32::from(vertex.entered == 0)
         });
         self.live.remove_corners(corners, missing.iter().sum());
+
         for corner in corners {
             if self.live.vertices[corner as usize].entered == 0 {
                 if self.held == self.size {
@@ -137,6 +140,8 @@ impl<R: FnMut(CacheEvent)> ControllableGrowth<'_, R> {
         }
         (self.record)(CacheEvent::Draw);
         self.new_to_old.push(face);
+
+        // Finished corners leave at once.
         for corner in corners {
             let vertex = &mut self.live.vertices[corner as usize];
             if vertex.live == 0 && vertex.entered != 0 {

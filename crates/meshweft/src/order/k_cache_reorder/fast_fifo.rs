@@ -1,15 +1,19 @@
 //! The fast mode for a first-in first-out cache.
 //!
-//! The output is that of the plain greedy (restricted to the oldest live candidates) and is reached
-//! without running it for every candidate:
+//! The output is that of the plain greedy, restricted to the oldest live candidates (`oracle` is
+//! that definition by brute force). It is reached without drawing every candidate *tentatively*,
+//! that is, drawing its faces to learn the cost and taking them back:
 //!
-//! - A vertex is in the cache if it entered within the last `K` pushes, so one time stamp a vertex
-//!   is the whole cache, and a tentative run is undone by restoring a few stamps.
+//! - A vertex is in the cache if it entered within the last `K` pushes. So one time stamp a vertex
+//!   is the whole cache, and a tentative drawing is undone by restoring a few stamps.
 //! - Each vertex knows how many white corners its live faces have, which bounds from below the
-//!   pushes that finishing it takes ([`least_neighbours`](crate::order::greedy::least_neighbours)); a
-//!   push or an eviction updates its neighbours. Only the candidate that looks cheapest is run
-//!   tentatively; if the run confirms the estimate, no other candidate can be cheaper.
+//!   pushes that finishing it takes ([`least_neighbours`](crate::order::greedy::least_neighbours)).
+//!   A push or an eviction updates the counts of its neighbours. Only the candidate with the lowest
+//!   estimate is drawn tentatively; if it costs no more than estimated, no other can be cheaper.
 //! - All costs are integers: a rounding difference would let platforms disagree.
+//!
+//! Two constant parameters choose the variant: `KEEP_CORNERS` forbids turning corners, `POLYGONS`
+//! draws the whole polygon of each face.
 
 use std::hint::select_unpredictable;
 
@@ -21,9 +25,9 @@ use crate::permutation::{FaceOrder, Permutation};
 /// Most candidates looked at; see [`candidate_count`].
 const MAX_CANDIDATES: usize = 16;
 
-/// Most candidates that are drawn tentatively in a step; then the cheapest of these is taken. On a
-/// surface the first or second is the one; on a soup of faces, where the estimate is poor, this
-/// bounds the work.
+/// Most candidates drawn tentatively in a step; after that, the cheapest of these is taken. On a
+/// surface the first or second is chosen. On faces that are not a surface the estimate is poor, and
+/// this bounds the work.
 pub(super) const MAX_TENTATIVE: u32 = 4;
 
 /// How many of the oldest live vertices in the cache are candidates for the focus.
@@ -48,8 +52,8 @@ pub(super) fn face_order(task: &Task<'_>, keep_corners: bool) -> FaceOrder {
     growth.order()
 }
 
-/// As [`face_order`] with corners kept, for polygons that are drawn as a whole: where the polygon of
-/// each face begins and ends.
+/// As [`face_order`] with corners kept, but draws whole polygons; `polygons` says where the polygon
+/// of each face begins and ends.
 pub(super) fn polygon_order(task: &Task<'_>, polygons: &[[u32; 2]]) -> FaceOrder {
     let mut growth = FifoGrowth::new(task);
     growth.polygons = polygons;
@@ -57,19 +61,20 @@ pub(super) fn polygon_order(task: &Task<'_>, polygons: &[[u32; 2]]) -> FaceOrder
     growth.order()
 }
 
+/// The drawn faces, which grow around one focus vertex after the other, and the cache.
 struct FifoGrowth<'a> {
     live: LiveFaces<'a>,
-    /// Where the polygon of each face begins and ends; empty where each face is on its own.
+    /// Where the polygon of each face begins and ends; empty if there are no polygons.
     polygons: &'a [[u32; 2]],
     costs: &'a Costs,
     size: u32,
     candidates: usize,
-    /// Counts pushes; starts past the cache size so that stamp 0 is outside.
+    /// Counts pushes; starts past the cache size, so that stamp 0 is not in the cache. Wraps.
     clock: u32,
-    /// The vertex pushed at each of the last times, by the low bits of the clock.
+    /// The vertex of each of the last pushes, by the low bits of the clock: tells which one leaves.
     pushed: Vec<u32>,
     queue: Queue,
-    /// The candidates of a step; kept to save clearing it each time.
+    /// The candidates of a step; a field, so that it is not cleared each time.
     oldest: [Entry; MAX_CANDIDATES + 1],
     tentative: Tentative,
     new_to_old: Vec<u32>,
@@ -79,7 +84,7 @@ struct FifoGrowth<'a> {
 /// The live faces of one vertex, and what drawing them tentatively overwrote.
 struct Tentative {
     vertex: Option<u32>,
-    /// The first `len` are meant.
+    /// Only the first `len` count.
     faces: Vec<u32>,
     len: usize,
     /// Overwritten stamps: vertex, stamp.
@@ -93,6 +98,7 @@ impl<'a> FifoGrowth<'a> {
         } = task;
         let size = *size;
         let ring = (size as usize + 1).next_power_of_two();
+
         Self {
             live: LiveFaces::new(*faces),
             polygons: &[],
@@ -100,7 +106,7 @@ impl<'a> FifoGrowth<'a> {
             size,
             candidates: candidate_count(size),
             clock: size + 1,
-            // The entry past the last vertex is on no face, so it leaves without a trace.
+            // The entry past the last vertex is on no face: it leaves without being announced.
             pushed: vec![index32(faces.vertex_count()); ring],
             queue: Queue::new(size),
             oldest: [(0, 0); MAX_CANDIDATES + 1],
@@ -124,19 +130,23 @@ impl<'a> FifoGrowth<'a> {
     fn grow<const KEEP_CORNERS: bool, const POLYGONS: bool>(&mut self, first_focus: Option<u32>) {
         let mut next = first_focus;
         loop {
+            // Choose the focus.
             next = next.or_else(|| self.cheapest_candidate::<KEEP_CORNERS, POLYGONS>());
             let Some(focus) = next.or_else(|| self.live.after_dead_end()) else {
                 return;
             };
+
+            // Its live faces are at hand if it was the last one drawn tentatively.
             if self.tentative.vertex != Some(focus) {
                 self.gather(focus);
             }
             self.tentative.vertex = None;
+
             for i in 0..self.tentative.len {
                 let face = self.tentative.faces[i];
                 match POLYGONS {
                     false => self.draw::<KEEP_CORNERS>(face),
-                    // The polygon's other faces at this vertex are drawn by then.
+                    // Its other faces at this vertex come up again; `draw` skips them.
                     true => {
                         let [start, end] = self.polygons[face as usize];
                         for face in start..end {
@@ -163,6 +173,9 @@ impl<'a> FifoGrowth<'a> {
         if self.queue.entries().is_empty() {
             return None;
         }
+
+        // Estimate the oldest live vertices. Each queue entry is written and kept only if it is a
+        // candidate: no branch for the processor to guess.
         let mut cost = [0_i64; MAX_CANDIDATES + 1];
         let oldest = &mut self.oldest;
         let mut count = 0;
@@ -177,51 +190,64 @@ impl<'a> FifoGrowth<'a> {
             let estimate = self.costs.of(vertex.white_neighbours(), vertex.live, age);
             oldest[count] = entry;
             cost[count] = estimate;
+
             let is_candidate = (vertex.live != 0) & (vertex.entered == entered);
             let is_better = is_candidate & (estimate < least);
             best = select_unpredictable(is_better, count, best);
             least = select_unpredictable(is_better, estimate, least);
+
             count += usize::from(is_candidate);
             scanned += 1;
             if count == self.candidates {
                 break;
             }
         }
+
+        // Entries that are out of date are not scanned again.
         self.queue.replace_front(scanned, &oldest[..count]);
         if count == 0 {
             return None;
         }
-        let mut confirmed = 0_u32;
+
+        // Replace the lowest estimate by the exact cost until no candidate can be cheaper. `tried`
+        // is the bit set of the candidates whose cost is exact.
+        let mut tried = 0_u32;
         loop {
             let (focus, _) = self.oldest[best];
             let vertex = &self.live.vertices[focus as usize];
+
             // Without a push, or with one face left whose hits come first, nothing that is needed
-            // can be evicted: the estimate is the cost.
-            // (With polygons the estimate sees only the faces at this vertex, so it is never exact.)
+            // can be evicted: the estimate is the cost. (With polygons the estimate sees only the
+            // faces at this vertex, so it is never exact.)
             let is_exact =
                 (!POLYGONS && vertex.white_corners == 0) || (!KEEP_CORNERS && vertex.live == 1);
-            if is_exact || confirmed >> best & 1 != 0 || vertex.live > HUB {
+            if is_exact || tried >> best & 1 != 0 || vertex.live > HUB {
                 return Some(focus);
             }
+
             let exact = self.tentative_cost::<KEEP_CORNERS, POLYGONS>(focus);
             if exact <= cost[best] {
                 return Some(focus);
             }
+
+            // It costs more than estimated. After the last attempt only exact costs compete.
             cost[best] = exact;
-            confirmed |= 1 << best;
-            let is_last = confirmed.count_ones() == MAX_TENTATIVE;
-            let rank = |i: usize| (is_last && confirmed >> i & 1 == 0, cost[i]);
+            tried |= 1 << best;
+            let is_last = tried.count_ones() == MAX_TENTATIVE;
+            let rank = |i: usize| (is_last && tried >> i & 1 == 0, cost[i]);
             best = (0..count).min_by_key(|&i| rank(i)).unwrap_or(0);
         }
     }
 
-    /// The cost of `focus` by drawing its live faces and taking everything back.
+    /// The exact cost of `focus`: draws its live faces on the time stamps, then restores these.
     #[inline]
     fn tentative_cost<const KEEP_CORNERS: bool, const POLYGONS: bool>(
         &mut self,
         focus: u32,
     ) -> i64 {
         self.gather(focus);
+
+        // As the real drawing, without counts and announcements.
         let (size, mut clock) = (self.size, self.clock);
         let (vertices, undo) = (&mut self.live.vertices[..], &mut self.tentative.undo);
         let mut draw = |face: u32| {
@@ -239,10 +265,11 @@ impl<'a> FifoGrowth<'a> {
                 }
             }
         };
+
         let gathered = &self.tentative.faces[..self.tentative.len];
         if POLYGONS {
-            // Its faces at this vertex stand next to each other. A run beyond a hub's is cut short:
-            // its cost so far is more than another's.
+            // The faces of a polygon at this vertex are gathered next to each other. After as many
+            // faces as a hub has, drawing stops: the cost so far is more than another's.
             let mut last = [u32::MAX; 2];
             let mut left = HUB;
             for &face in gathered {
@@ -259,32 +286,37 @@ impl<'a> FifoGrowth<'a> {
                 draw(face);
             }
         }
+
+        // Read the age, then restore the stamps, the last one first: a vertex may be there twice.
         let vertex = vertices[focus as usize];
         let age = clock.wrapping_sub(vertex.entered);
         while let Some((corner, entered)) = undo.pop() {
             vertices[corner as usize].entered = entered;
         }
+
         let pushes = clock.wrapping_sub(self.clock);
         self.costs.after_run(pushes, vertex.live, age)
     }
 
-    /// Draws a face: its corners turned so that hits come first, its misses pushed.
+    /// Draws a face, unless it is drawn already: turns its corners so that hits come first, and
+    /// pushes its misses.
     #[inline]
     fn draw<const KEEP_CORNERS: bool>(&mut self, face: u32) {
-        // From here on the face is no live face, so that what its own pushes evict is not
-        // announced to it.
+        // Marked first, so that its own pushes and what they evict are not announced to it.
         if !self.live.mark_drawn(face) {
             return;
         }
+
         let corners = self.live.faces[face as usize];
         let missing = corners.map(|corner| u32::from(self.is_white(corner)));
         let turn = Turn::new::<KEEP_CORNERS>(missing);
         self.live.remove_corners(corners, turn.misses);
         self.rotations[self.new_to_old.len()] = turn.rotation;
         self.new_to_old.push(face);
+
         for corner in turn.pushes(corners) {
-            // A face may name a vertex twice, and with kept corners an earlier push may have evicted
-            // a corner that was there.
+            // A face may name a vertex twice, and with kept corners an earlier push may have
+            // evicted a corner that was there.
             if self.is_white(corner) {
                 self.push(corner);
             }
@@ -297,6 +329,8 @@ impl<'a> FifoGrowth<'a> {
         self.clock.wrapping_sub(entered) > self.size
     }
 
+    /// Pushes a white vertex, and evicts the vertex that was pushed `size` pushes ago, if that was
+    /// its last push.
     #[inline]
     fn push(&mut self, vertex: u32) {
         let mask = self.pushed.len() - 1;
@@ -305,13 +339,15 @@ impl<'a> FifoGrowth<'a> {
         let entered = self.clock;
         self.live.vertices[vertex as usize].entered = entered;
         self.clock = self.clock.wrapping_add(1);
+
         if self.live.vertices[leaving as usize].live != 0 {
-            // Its stamp is too old by now; with none, no entry of the queue is taken for it.
+            // Its stamp is too old by now. Without a stamp no entry of the queue matches it.
             self.live.vertices[leaving as usize].entered = 0;
             self.live.announce_unfinished_exit(leaving);
         }
+
         if self.live.vertices[vertex as usize].live == 0 {
-            // Pushed by its last face: black already, and no live face is there to tell.
+            // Pushed by its last face: black already, with no live face to announce it to.
             return;
         }
         let vertices = &self.live.vertices;

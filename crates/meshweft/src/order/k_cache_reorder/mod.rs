@@ -1,4 +1,4 @@
-//! K-Cache-Reorder: finish one vertex after the other, each time the one that costs least.
+//! K-Cache-Reorder: finish one vertex after the other, each time the cheapest.
 //!
 //! Gang Lin, Thomas P.-Y. Yu: *An Improved Vertex Caching Scheme for 3D Mesh Rendering*, IEEE
 //! Transactions on Visualization and Computer Graphics 12(4), 2006, doi:10.1109/TVCG.2006.59.
@@ -13,32 +13,32 @@
 //! Choices of [`Mode::Faithful`], each the plainest reading that meets the paper's tables:
 //! - The sign of `C2` is minus ("the more faces rendered, the lower cost"); plus or nothing is
 //!   .01 to .04 worse.
-//! - FIFO: `C1` counts every push of a tentative run, vertices that are evicted during it and
-//!   pushed again included; a push may evict a vertex of the very face being drawn, so corners are
-//!   pushed until all three are there. `C3` is `(K − age) / K` after the run, age in pushes.
+//! - FIFO: `C1` counts every push of a tentative run, also of vertices that the run evicts and
+//!   pushes again. A push may evict a vertex of the face being drawn, so corners are pushed until
+//!   all three are there. `C3` is `(K − age) / K` after the run, age in pushes.
 //! - A black vertex keeps its place until it reaches the front. Dropping it there (step 17) does
-//!   not change who else is in the cache, so it is left out.
+//!   not change what else is in the cache, so it is left out.
 //! - Controllable: `C1` is the number of distinct white neighbours, without a run. On a full buffer
-//!   the vertex of greatest current cost leaves, not one of the face, not one pushed since the
-//!   focus was chosen, **ties to the newest**: this detail is worth .02 and the paper's figures
-//!   tell which. Black vertices leave at once.
-//! - Ties of the focus go to the front; with no gray vertex left, the white vertex of least degree
-//!   (all its faces, drawn or not) that is first in the file.
+//!   the vertex of greatest current cost leaves, except those of the face and those pushed since
+//!   the focus was chosen, **ties to the newest**: this detail is worth .02, and the paper's
+//!   figures show which reading is meant. Black vertices leave at once.
+//! - Ties of the focus go to the front. With no gray vertex left, the focus is the white vertex of
+//!   least degree (all its faces, drawn or not) that is first in the file.
 //! - FIFO: a vertex's faces are drawn clockwise from the first in the file, a non-manifold fan in
 //!   pieces. Controllable: in file order. The paper says clockwise, but its controllable column
 //!   agrees with file order only (mesh *eight*: printed .635, file order .640, clockwise .665), its
 //!   FIFO column with clockwise only (.633; file order .622, clockwise .630).
-//! - A vertex with more than 4096 faces left is not run but waits until no other is gray: a run for
-//!   it at every step would take forever, and it would be chosen last all the same.
-//! - Step 14 (draw at once whatever else has become drawable) is left out: it changes the mean
-//!   push count by nothing and, unless each push is checked again, lets the assumed cache drift
-//!   from the real one.
+//! - A vertex with more than 4096 faces left is not run; it waits until no other is gray. A run for
+//!   it at every step would take too long, and it would be chosen last anyway.
+//! - Step 14 (draw at once whatever else has become drawable) is left out: it does not change the
+//!   mean push count and, unless each push is checked again, lets the assumed cache drift from the
+//!   real one.
 //!
-//! [`Mode::Fast`] departs from it where that is faster or better: only the oldest few live vertices
-//! are candidates; corners are turned so that hits come first, which makes the pushes it counts
-//! equal to a hardware replay; dead ends go to the vertex with the fewest *remaining* faces; in a
-//! controllable cache the vertex that leaves is the one that is needed last, see
-//! `fast_controllable`. Read `fast_fifo` for how it avoids running every candidate.
+//! [`Mode::Fast`] departs from the paper where that is faster or better. Only the oldest few live
+//! vertices are candidates. Corners are turned so that hits come first, which makes the pushes it
+//! counts equal to a hardware replay. Dead ends go to the vertex with the fewest *remaining* faces.
+//! In a controllable cache the vertex that is needed last leaves (`fast_controllable`). Read
+//! `fast_fifo` for how it avoids running every candidate.
 
 mod faithful;
 mod fast_controllable;
@@ -46,6 +46,8 @@ mod fast_fifo;
 #[cfg(test)]
 mod oracle;
 mod task;
+
+use std::fmt;
 
 use crate::cache::{CacheEvent, CacheModel, MIN_CACHE_SIZE, Schedule};
 use crate::faces::Faces;
@@ -57,6 +59,8 @@ use faithful::Evictions;
 use task::Task;
 
 /// How closely [`KCacheReorder`] follows the paper.
+///
+/// Written as `fast`, `faithful`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Mode {
@@ -65,6 +69,15 @@ pub enum Mode {
     Fast,
     /// The plain reading of the paper, to compare with its tables. Corners are never turned.
     Faithful,
+}
+
+impl fmt::Display for Mode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fast => "fast",
+            Self::Faithful => "faithful",
+        })
+    }
 }
 
 /// A rendering sequence by K-Cache-Reorder (Lin & Yu 2006).
@@ -103,8 +116,8 @@ pub struct KCacheReorder {
 impl Default for KCacheReorder {
     /// FIFO of 12 entries, fast, the paper's weights (1, 0.5, 1.3).
     ///
-    /// An order made for a larger cache than the device has is bad, one made for a smaller cache
-    /// loses little: hence the small size.
+    /// The size is small because an order made for a larger cache than the device has is bad, while
+    /// one made for a smaller cache loses little.
     fn default() -> Self {
         Self {
             cache: CacheModel::fifo(12),
@@ -124,29 +137,30 @@ impl KCacheReorder {
     /// Weights are rounded to thousandths and clamped to ±1024.
     ///
     /// # Panics
-    /// If [`cache`](Self::cache) is neither FIFO nor controllable, or `first_focus` names no vertex.
+    /// If [`cache`](Self::cache) is neither FIFO nor controllable, or `first_focus` names no
+    /// vertex.
     ///
     /// # Complexity
     /// Fast: time O(vertices + faces) for any cache size; space 16 bytes a vertex and 13 a face
-    /// beside the result.
+    /// in addition to the result.
     /// Faithful: O(K · vertices) tentative runs.
     #[must_use]
     pub fn face_order<'a>(&self, faces: impl Into<Faces<'a>>) -> FaceOrder {
         self.ordered(faces.into(), |_| {})
     }
 
-    /// The order in which to draw the faces so that those of a polygon stay together, one after the
-    /// other as they are; faces `starts[i]..starts[i + 1]` are polygon `i`.
+    /// The order in which to draw the faces, with the faces of each polygon kept together and in
+    /// their order; faces `starts[i]..starts[i + 1]` are polygon `i`.
     ///
-    /// The fast mode for a FIFO cache draws polygons as wholes; otherwise a polygon goes where the
-    /// first of its faces would go. Corners are never turned.
+    /// The fast mode for a FIFO cache draws whole polygons; otherwise a polygon is drawn where the
+    /// first of its faces would be. Corners are never turned.
     ///
     /// # Panics
     /// As [`face_order`](Self::face_order), or if `starts` does not rise from 0 to the number of
     /// faces.
     ///
     /// # Complexity
-    /// As [`face_order`](Self::face_order), with 8 bytes more a face.
+    /// As [`face_order`](Self::face_order), and 8 more bytes a face.
     ///
     /// ```
     /// use meshweft::{CacheModel, Mesh, cache, order::KCacheReorder};
@@ -217,14 +231,14 @@ impl KCacheReorder {
         Task {
             faces,
             costs: Costs::new(self.k1, self.k2, k3, size),
-            // In a cache that holds all vertices none ever leaves: a larger one is no different.
+            // A cache that holds all vertices never evicts one, so a larger cache changes nothing.
             size: size.min(vertex_count).max(MIN_CACHE_SIZE),
             first_focus: self.first_focus,
         }
     }
 }
 
-/// Each polygon where the first of its faces is in `order`.
+/// The whole polygons, in the order in which `order` draws the first face of each.
 fn whole_polygons(order: &FaceOrder, starts: &[u32]) -> FaceOrder {
     let mut placed = vec![false; starts.len()];
     let mut faces = Vec::with_capacity(order.len());

@@ -1,4 +1,4 @@
-//! The fast mode against its definition, run by brute force.
+//! The fast mode compared with its definition, which is computed by brute force.
 
 use super::KCacheReorder;
 use super::fast_fifo::{MAX_TENTATIVE, candidate_count};
@@ -49,12 +49,13 @@ impl Buffer {
     }
 }
 
+/// The order and rotations that the definition of the fast mode gives.
 fn by_definition(mesh: &Mesh, algorithm: &KCacheReorder) -> (Vec<u32>, Vec<u8>) {
     let each: Vec<u32> = (0..=index32(mesh.face_count())).collect();
     of_polygons(mesh, &each, algorithm)
 }
 
-/// The same where faces `starts[i]..starts[i + 1]` are drawn together.
+/// As [`by_definition`], with faces `starts[i]..starts[i + 1]` drawn together.
 fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u32>, Vec<u8>) {
     let size = algorithm.cache.size();
     let costs = Costs::new(algorithm.k1, algorithm.k2, algorithm.k3, size);
@@ -68,6 +69,7 @@ fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u
     };
     let (mut order, mut rotations) = (Vec::new(), Vec::new());
     let mut next = algorithm.first_focus;
+
     loop {
         let live_faces = |v: u32| -> Vec<usize> {
             let all = 0..faces.len();
@@ -75,6 +77,7 @@ fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u
                 .collect()
         };
         let live = |v: u32| index32(live_faces(v).len());
+
         // What drawing `v` draws: its live faces and those of their polygons, each once.
         let to_draw = |v: u32| -> Vec<usize> {
             let polygon = |&f: &usize| starts.partition_point(|&start| start as usize <= f) - 1;
@@ -83,6 +86,8 @@ fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u
             let faces = |&p: &usize| starts[p] as usize..starts[p + 1] as usize;
             polygons.iter().flat_map(faces).collect()
         };
+
+        // The exact cost, on a copy of the cache.
         let cost = |v: u32| {
             let mut run = buffer.clone();
             for face in to_draw(v) {
@@ -98,8 +103,11 @@ fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u
             };
             costs.after_run(run.pushes - buffer.pushes, live(v), age)
         };
+
         let candidates = buffer.held.iter().copied().filter(|&v| live(v) > 0);
         let candidates = candidates.take(candidate_count(size));
+
+        // The lower bound, from a plain count of white corners.
         let estimate = |v: u32| {
             let corners = live_faces(v).into_iter().flat_map(|f| faces[f]);
             let white = index32(corners.filter(|c| !buffer.held.contains(c)).count());
@@ -107,7 +115,8 @@ fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u
             let neighbours = white.div_ceil(2).max((white + 1).saturating_sub(live(v)));
             costs.of(neighbours, live(v), index32(age.unwrap_or(0)) + 1)
         };
-        // In the order of their estimates, until one that was run is no dearer than the next.
+
+        // Candidates by estimate, until an exact cost is at most the next estimate.
         let mut by_estimate: Vec<(i64, usize, u32)> = candidates
             .enumerate()
             .map(|(place, v)| (estimate(v), place, v))
@@ -122,6 +131,8 @@ fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u
             }
         }
         let cheapest = cheapest.map(|c| c.2);
+
+        // Dead ends, then the end.
         let unfinished = buffer.left.iter().rev().filter(|l| live(l.1) > 0);
         let stranded = unfinished.min_by_key(|l| live(l.1).min(8)).map(|l| l.1);
         let untouched = (0..index32(mesh.vertex_count())).find(|&v| live(v) > 0);
@@ -129,6 +140,7 @@ fn of_polygons(mesh: &Mesh, starts: &[u32], algorithm: &KCacheReorder) -> (Vec<u
         let Some(focus) = focus else {
             return (order, rotations);
         };
+
         for face in to_draw(focus) {
             drawn[face] = true;
             order.push(index32(face));
@@ -204,6 +216,8 @@ fn polygons_are_ordered_by_the_same_rules() {
                 _ => polygons.push(vec![[a, b, d], [a, d, c]]),
             }
         }
+
+        // Shuffled, as flat faces and where each polygon starts.
         let shuffled = random(polygons.len(), seed as u64 + 9);
         let polygons: Vec<_> = shuffled
             .new_to_old()
@@ -216,6 +230,8 @@ fn polygons_are_ordered_by_the_same_rules() {
         }
         let faces: Vec<_> = polygons.into_iter().flatten().copied().collect();
         let mesh = Mesh::connectivity_only(width * height, faces).unwrap();
+
+        // The fast FIFO mode follows the definition.
         let algorithm = KCacheReorder {
             cache: CacheModel::fifo(size),
             keep_corners: true,
@@ -225,6 +241,8 @@ fn polygons_are_ordered_by_the_same_rules() {
         let (faces, rotations) = of_polygons(&mesh, &starts, &algorithm);
         assert_eq!(order.new_to_old(), faces, "size {size}");
         assert!(rotations.iter().all(|&r| r == 0) && order.rotations().iter().all(|&r| r == 0));
+
+        // The other modes keep polygons together.
         for other in [CacheModel::controllable(size), CacheModel::fifo(size)] {
             let algorithm = KCacheReorder {
                 cache: other,

@@ -1,4 +1,4 @@
-//! What every mode is handed.
+//! The input of every mode.
 
 use crate::faces::Faces;
 use crate::order::greedy::Costs;
@@ -6,7 +6,7 @@ use crate::order::greedy::Costs;
 /// Faces to be ordered for a cache of `size` vertices.
 pub(super) struct Task<'a> {
     pub(super) faces: Faces<'a>,
-    /// No more than the mesh has vertices: a larger cache is no different.
+    /// At most the number of vertices: a larger cache changes nothing.
     pub(super) size: u32,
     pub(super) costs: Costs,
     /// The vertex to start from, instead of what the mode would choose.

@@ -1,8 +1,8 @@
 //! Sets of the last pushes, one bit each.
 
-/// A set of numbers, each by its remainder.
+/// A set of numbers, each stored as its remainder modulo [`SPAN`](Self::SPAN).
 pub(super) trait Mask: Copy + Default + Eq {
-    /// How many numbers in a row it tells apart.
+    /// How many consecutive numbers it tells apart.
     const SPAN: u32;
     fn contains(self, number: u32) -> bool;
     fn set_if(&mut self, condition: bool, number: u32);

@@ -1,6 +1,6 @@
 //! Large meshes in parts, on as many threads as there are.
 
-use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::{AtomicBool, AtomicUsize};
 
 use super::mask::Mask;
 use super::preset::preset;
@@ -16,11 +16,11 @@ use crate::parallel;
 use crate::permutation::{FaceOrder, Permutation};
 use crate::progress::{Budget, Progress};
 
-/// Faces of a part, at least. A part starts with a cold cache and transforms the vertices at its
-/// border once more than the whole would: at this size that costs less than a hundredth.
+/// The fewest faces in a part. A part starts with a cold cache and transforms the vertices at its
+/// border once more than the whole mesh would: at this size that costs less than a hundredth.
 const PART: usize = 1 << 17;
 
-/// A search for an order, and who hears of it.
+/// A search for an order, and the caller to report to.
 pub(in crate::order) struct Search<'a> {
     pub(in crate::order) target: Target,
     pub(in crate::order) effort: Effort,
@@ -31,7 +31,7 @@ pub(in crate::order) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Searches part by part; polygons that begin at `starts` stay whole.
+    /// The order that the search finds, part by part; polygons that begin at `starts` stay whole.
     pub(in crate::order) fn face_order(
         &self,
         faces: Faces<'_>,
@@ -44,17 +44,19 @@ impl Search<'_> {
             parts => slabs::compact_parts(faces, parts, polygons.as_deref()),
         };
 
+        // Each part gets its own vertex numbers, its own random numbers and its share of the steps.
         let settings = preset(self.target, self.effort);
         let caller = Caller {
             progress: self.progress,
             faces: face_count,
             drawn: AtomicUsize::new(0),
+            is_stopped: AtomicBool::new(false),
         };
         let mut numbers = vec![u32::MAX; faces.vertex_count()];
         let mut start = 0;
         let parts = ends.iter().map(|&end| {
             let members = &order.new_to_old()[start..end];
-            let corners = members.iter().map(|&face| faces.corners()[face as usize]);
+            let corners = members.iter().map(|&face| faces.as_slice()[face as usize]);
             let (faces, vertex_count) = renumbered(corners, &mut numbers);
             let part = Part {
                 faces,
@@ -65,18 +67,19 @@ impl Search<'_> {
                 keep_corners: self.keep_corners || starts.is_some(),
                 seed: self.seed ^ (start as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15),
                 settings: &settings,
-                steps: self.budget.share(end - start, face_count).steps(),
+                steps: self.budget.share(start..end, face_count).steps(),
                 caller: &caller,
             };
             start = end;
             part
         });
+
         let ordered = parallel::map(parts.collect(), |part: Part<'_>| part.search());
         FaceOrder::from(order).then(&joined(ordered, face_count))
     }
 }
 
-/// In how many parts to cut so many faces: a power of two, which as many threads share evenly.
+/// The number of parts: a power of two, to divide evenly among threads.
 fn part_count(faces: usize) -> usize {
     match faces / PART {
         0 | 1 => 1,
@@ -86,13 +89,14 @@ fn part_count(faces: usize) -> usize {
 
 /// The parts one after the other.
 ///
-/// A part ends with its last full batch, so that the next one's batches start where it planned
-/// them; the few faces that are left over come last of all.
+/// Each part ends with its last full batch, so that the batches of the next part start where that
+/// part planned them. The few faces left over from all parts come last.
 fn joined(parts: Vec<Found>, face_count: usize) -> FaceOrder {
     let mut new_to_old = Vec::with_capacity(face_count);
     let mut rotations = Vec::with_capacity(face_count);
     let mut left_over = Vec::new();
     let mut start = 0;
+
     for part in parts {
         let kept = part.order.len() - part.left_over;
         for (i, &face) in part.order.new_to_old().iter().enumerate() {
@@ -106,15 +110,20 @@ fn joined(parts: Vec<Found>, face_count: usize) -> FaceOrder {
         }
         start += index32(part.order.len());
     }
+
     for (face, rotation) in left_over {
         new_to_old.push(face);
         rotations.push(rotation);
     }
+
     let permutation = Permutation::from_algorithm(new_to_old);
     FaceOrder::new(permutation, rotations).expect("one rotation below 3 a face")
 }
 
-/// Where the polygon of each member begins and ends among the members.
+/// Where the polygon of each member begins and ends among the members, which hold whole polygons.
+///
+/// Callers hand over polygons as `starts`. Here each face has the range of its polygon instead:
+/// that form can be picked face by face.
 fn polygons_of(members: &[u32], polygons: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let place = |(i, &face): (u32, &u32)| {
         let [start, end] = polygons[face as usize];
@@ -123,11 +132,11 @@ fn polygons_of(members: &[u32], polygons: &[[u32; 2]]) -> Vec<[u32; 2]> {
     (0..).zip(members).map(place).collect()
 }
 
-/// Faces to be searched by themselves.
+/// Faces that are ordered independently of the others.
 struct Part<'a> {
     faces: Vec<[u32; 3]>,
     vertex_count: usize,
-    /// Where the polygon of each face begins and ends; empty where each face is on its own.
+    /// Where the polygon of each face begins and ends; empty if there are no polygons.
     polygons: Vec<[u32; 2]>,
     keep_corners: bool,
     seed: u64,
@@ -140,11 +149,12 @@ struct Part<'a> {
 /// The order of a part.
 struct Found {
     order: FaceOrder,
-    /// How many faces behind are in a batch that is not full.
+    /// Trailing faces in an incomplete batch.
     left_over: usize,
 }
 
 impl Part<'_> {
+    /// Chooses the traversal for the modelled caches and the length of the window.
     fn search(&self) -> Found {
         let (first, second) = (self.settings.first, self.settings.second);
         let is_short = self.settings.window <= u64::SPAN;
@@ -157,12 +167,15 @@ impl Part<'_> {
     }
 
     fn run<M: Mask, const CACHES: usize>(&self, limits: [CacheLimits; CACHES]) -> Found {
-        let mut state = State::<M, CACHES>::new(&self.faces, self.vertex_count, limits);
+        let faces = Faces::of_checked(&self.faces, self.vertex_count);
+        let mut state = State::<M, CACHES>::new(faces, limits);
         state.window = self.settings.window;
         state.windows = self.settings.windows;
         state.keep_corners = self.keep_corners;
         state.polygons = &self.polygons;
+
         let state = Rollouts::new(state, self.settings, self.seed).run(self.steps, self.caller);
+
         let left_over = match self.polygons.is_empty() {
             true => state.faces_in_batch(),
             false => 0,
@@ -175,7 +188,9 @@ impl Part<'_> {
     }
 }
 
-/// The faces with vertices numbered by their first use, and how many there are.
+/// The faces with their vertices numbered by first use, and how many vertices there are.
+///
+/// `numbers` has an entry for each vertex of the mesh, `u32::MAX` before and after.
 fn renumbered(
     faces: impl Iterator<Item = [u32; 3]>,
     numbers: &mut [u32],
@@ -192,6 +207,8 @@ fn renumbered(
         *number
     };
     let faces = faces.map(|face| face.map(&mut number)).collect();
+
+    // Only what was used is reset: the next part finds the array clear.
     for vertex in used {
         numbers[vertex as usize] = u32::MAX;
     }
@@ -221,8 +238,11 @@ mod tests {
                 progress: &(),
                 faces: 0,
                 drawn: AtomicUsize::new(0),
+                is_stopped: AtomicBool::new(false),
             };
             let (mut parts, mut faces, mut separately) = (Vec::new(), Vec::new(), 0);
+
+            // Three grids of their own vertices: the misses of the full batches of each alone.
             for side in [9, 14, 23] {
                 let part = Part {
                     faces: grid(side),
@@ -238,6 +258,7 @@ mod tests {
                 let kept = found.order.len() - found.left_over;
                 let alone = found.order.apply(&grid(side));
                 separately += cache::misses(&alone[..kept], model);
+
                 let before = index32(faces.len());
                 let moved = |face: [u32; 3]| face.map(|v| v + 1000 * before);
                 faces.extend(grid(side).into_iter().map(moved));
@@ -245,6 +266,8 @@ mod tests {
             }
             let left_over: usize = parts.iter().map(|part| part.left_over).sum();
             assert!(left_over > 0, "{model}: nothing to keep aligned");
+
+            // Joined, the full batches miss as often.
             let order = joined(parts, faces.len());
             let kept = faces.len() - left_over;
             assert_eq!(

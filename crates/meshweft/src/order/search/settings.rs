@@ -1,17 +1,18 @@
-//! What a search is told: which caches are modelled, how costs and scores are weighed, how far it
-//! looks ahead.
+//! The settings of a search: which caches are modelled, how costs and scores are weighed, how far
+//! it looks ahead.
 
 use super::state::{CacheLimits, WINDOWS};
 
-/// All that a search is told.
+/// All settings of a search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Settings {
     /// The cache that corners are turned for and candidates come from.
     pub(super) first: CacheLimits,
-    /// One beside it.
+    /// Another cache that is modelled at the same time.
     pub(super) second: Option<CacheLimits>,
     /// How many of the last pushes into the first cache are candidates.
     pub(super) window: u32,
+    /// Lengths of longer windows, in pushes into the first cache; used with two caches only.
     pub(super) windows: [u32; WINDOWS],
     pub(super) weights: Weights,
     pub(super) score: Score,
@@ -23,45 +24,46 @@ pub(super) struct Settings {
 pub(super) struct Weights {
     /// A vertex that is missing from each cache.
     pub(super) missing: [i64; 2],
-    /// A face drawn; the more, the cheaper.
+    /// A face drawn; subtracted.
     pub(super) live: i64,
-    /// A push since it entered the first cache; the more, the cheaper.
+    /// A push since it entered the first cache; subtracted.
     pub(super) age: i64,
     /// Leaving the first cache before it is finished.
     pub(super) late: i64,
-    /// Having left the first cache.
+    /// Being outside the first cache.
     pub(super) outside: i64,
-    /// A push since it entered the first cache, if it has left it.
+    /// A push since it entered the first cache, if it is outside; subtracted.
     pub(super) outside_age: i64,
 }
 
-/// What a continuation is judged by, in 1024ths of an eviction; less is better.
+/// Weights of a continuation's score, in 1024ths of an eviction; less is better.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Score {
     /// A vertex that leaves each cache unfinished.
     pub(super) exits: [i64; 2],
     /// A vertex that leaves a longer window unfinished.
     pub(super) windows: [i64; WINDOWS],
-    /// A face drawn.
+    /// A face drawn; subtracted.
     pub(super) face: i64,
-    /// A push since each vertex entered that is a candidate in the end.
+    /// Weight of the age, in pushes, of each final candidate.
     pub(super) age: i64,
 }
 
 /// How far and how often to look ahead.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Horizon {
-    /// Continuations.
+    /// Continuations in each round.
     pub(super) runs: usize,
-    /// Vertices finished in each.
+    /// Vertices finished in each continuation.
     pub(super) steps: usize,
-    /// Vertices of the best that are finished for good.
+    /// Vertices of the best continuation that are committed.
     pub(super) commit: usize,
-    /// Most candidates looked at, the oldest first.
+    /// Most candidates compared for a focus, the oldest first.
     pub(super) candidates: u32,
     /// Span of the noise on a candidate's cost, in 1024ths of a push.
     pub(super) noise: i64,
-    /// A run that is this much behind the best after `patience` steps or more is given up.
+    /// Abandon a continuation that trails the best by more than this, once past `patience` steps.
     pub(super) margin: i64,
+    /// Steps before a continuation may be given up.
     pub(super) patience: usize,
 }

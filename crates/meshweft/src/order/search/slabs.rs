@@ -5,11 +5,11 @@ use crate::index::index32;
 use crate::permutation::Permutation;
 use crate::topology::{Adjacency, rows};
 
-/// The faces in parts of like size, and where each part ends.
+/// The faces in parts of similar size, and where each part ends.
 ///
-/// Cuts the mesh across into slabs, by the distance from its first face, and each slab by the
-/// distance from the slab's first face: as many pieces as there are slabs, so that both ways a part
-/// is about as long. Inside a part faces keep their order; polygons, if any, stay whole.
+/// Cuts the mesh into slabs by the distance from its first face, and each slab into parts by the
+/// distance from the slab's first face. There are about as many parts in a slab as slabs, so that a
+/// part is about as long as wide. Inside a part faces keep their order; polygons stay whole.
 ///
 /// Time O(faces), space 36 bytes a face.
 pub(super) fn compact_parts(
@@ -18,7 +18,7 @@ pub(super) fn compact_parts(
     polygons: Option<&[[u32; 2]]>,
 ) -> (Permutation, Vec<usize>) {
     let mut slicing = Slicing {
-        faces: faces.corners(),
+        faces: faces.as_slice(),
         adjacency: Adjacency::new(faces),
         polygons,
         part: vec![0; faces.len()],
@@ -26,19 +26,22 @@ pub(super) fn compact_parts(
         queue: Vec::new(),
         parts: 1,
     };
+
+    // Slabs in proportion to the number of parts that each is cut into.
     let mut members: Vec<u32> = (0..index32(faces.len())).collect();
     let slabs = parts.isqrt().max(1);
     let mut ends = Vec::new();
     let mut start = 0;
-    // Slabs of as many faces as they are to have parts.
     let shares: Vec<usize> = (0..slabs)
         .map(|i| (i + 1) * parts / slabs - i * parts / slabs)
         .collect();
+
     for (end, share) in slicing.slice(&mut members, &shares).into_iter().zip(shares) {
         let inside = slicing.slice(&mut members[start..end], &vec![1; share]);
         ends.extend(inside.into_iter().map(|inside| start + inside));
         start = end;
     }
+
     (Permutation::from_algorithm(members), ends)
 }
 
@@ -46,22 +49,25 @@ struct Slicing<'a> {
     faces: &'a [[u32; 3]],
     adjacency: Adjacency,
     polygons: Option<&'a [[u32; 2]]>,
-    /// The part of each face, and the number of the next part.
+    /// The part of each face.
     part: Vec<u32>,
+    /// The number of the next part.
     parts: u32,
-    /// The walk that last went round each vertex.
+    /// The walk that last visited the faces of each vertex.
     fans: Vec<u32>,
     /// Faces in the order in which the walk reached them.
     queue: Vec<u32>,
 }
 
 impl Slicing<'_> {
-    /// Puts the members, which are one part, slice after slice by their distance from the first
-    /// one; where each slice ends. The slices have sizes as the shares.
+    /// Sorts the members, which are one part, into slices by their distance from the first one;
+    /// returns where each slice ends. The sizes of the slices are in proportion to the shares.
     fn slice(&mut self, members: &mut [u32], shares: &[usize]) -> Vec<usize> {
         if shares.len() < 2 || members.is_empty() {
             return vec![members.len(); shares.len()];
         }
+
+        // Each slice becomes a part: a stretch of the walk.
         self.walk(members);
         let total: usize = shares.iter().sum();
         let first_part = self.parts;
@@ -75,8 +81,9 @@ impl Slicing<'_> {
             self.parts += 1;
             start = end;
         }
+
+        // A polygon goes where its first face went.
         if let Some(polygons) = self.polygons {
-            // Each goes where its first face went.
             for &face in &*members {
                 let [first, _] = polygons[face as usize];
                 self.part[face as usize] = self.part[first as usize];
@@ -92,25 +99,28 @@ impl Slicing<'_> {
         starts[1..].iter().map(|&end| end as usize).collect()
     }
 
-    /// Lists the members by their distance from the first, and piece by piece what does not hang
-    /// together with it.
+    /// Lists the members in `queue` by their distance from the first, then those that are not
+    /// connected with it, piece by piece.
     fn walk(&mut self, members: &[u32]) {
         self.queue.clear();
         let part = self.part[members[0] as usize];
-        // What the walk has reached is a part of its own until it is sliced.
+        // The number of a part marks what the walk has reached; slicing overwrites it.
         let reached = self.parts;
         self.parts += 1;
+
         for &piece in members {
             if self.part[piece as usize] == reached {
                 continue;
             }
             self.part[piece as usize] = reached;
+
+            // Breadth first from a face that was not reached.
             let mut next = self.queue.len();
             self.queue.push(piece);
             while let Some(&face) = self.queue.get(next) {
                 next += 1;
                 for vertex in self.faces[face as usize] {
-                    // Once round each vertex, however many faces it has.
+                    // The faces of each vertex are visited once.
                     if std::mem::replace(&mut self.fans[vertex as usize], reached) == reached {
                         continue;
                     }

@@ -1,8 +1,12 @@
 //! Traversal state with undo: undrawn faces, and the caches being modelled.
 //!
-//! An attempt remembers each vertex that it changes, once; taking it back restores these and a few
-//! numbers, whatever the caches did. Who is a candidate is a bit a push, so the oldest are found
-//! without touching the rest.
+//! An *attempt* is what is drawn with `UNDO` between [`State::begin`] and [`State::undo`] or
+//! [`State::keep`]. It saves each vertex before first changing it; taking it back restores these
+//! vertices, the caches and a few numbers, whatever the caches did. Candidates are a bit set of the
+//! last pushes, so the oldest are found without touching the others.
+//!
+//! Read `caches` for what is modelled, `drawing` for what a face changes. `oracle` compares all
+//! counts with plain recounts.
 
 mod caches;
 mod drawing;
@@ -12,15 +16,19 @@ mod oracle;
 use std::ops::Range;
 
 use super::mask::Mask;
+use crate::faces::Faces;
 use crate::index::index32;
 use crate::order::greedy::{HUB, least_neighbours};
 use crate::topology::rows;
 use caches::Cache;
 pub(super) use caches::CacheLimits;
+#[cfg(test)]
+pub(super) use caches::RING;
 
 /// How many longer windows there are.
 pub(super) const WINDOWS: usize = 3;
 
+/// What is known of a vertex.
 #[derive(Clone, Copy)]
 struct SearchVertex<const CACHES: usize> {
     /// The number of its last push into each cache; 0 before the first.
@@ -29,56 +37,62 @@ struct SearchVertex<const CACHES: usize> {
     row: u32,
     /// Its corners in faces that are not drawn yet. 0: black.
     live: u32,
-    /// The other corners of its live faces that are missing, 16 bits for each cache. Of a hub it
-    /// means nothing.
+    /// How many of the other corners of its live faces are missing from each cache: 16 bits a
+    /// cache, the first one in the low bits. At most 2 · [`HUB`], so no count runs into the next; a
+    /// hub's may, and are not used.
     missing: u32,
-    /// The attempt that last changed it.
+    /// The attempt that last changed it: it is saved already if that is the current one.
     attempt: u32,
 }
 
 impl<const CACHES: usize> SearchVertex<CACHES> {
-    /// How many neighbours are missing from a cache at least; see [`least_neighbours`].
+    /// The fewest neighbours that can be missing from a cache; see [`least_neighbours`].
     #[inline]
     fn missing_neighbours(&self, cache: usize) -> u32 {
         least_neighbours(self.missing >> (16 * cache) & 0xffff, self.live)
     }
 }
 
+/// The traversal, with one cache or two.
 pub(super) struct State<'a, M, const CACHES: usize> {
     faces: &'a [[u32; 3]],
     /// One more than there are, so that each row has an end.
     vertices: Vec<SearchVertex<CACHES>>,
-    /// Rows of faces with their other two corners, drawn faces included.
+    /// Rows of faces, including drawn ones, each with its other two corners.
     rows: Vec<[u32; 3]>,
     drawn: Vec<bool>,
     pub(super) caches: [Cache; CACHES],
-    /// The last pushes into the first cache whose vertices are unfinished: the candidates.
+    /// Those of the last `window` pushes into the first cache whose vertices are unfinished: the
+    /// candidates.
     recent: M,
-    /// How many of the last pushes that are.
+    /// How many of the last pushes can be candidates; at most `M::SPAN`.
     pub(super) window: u32,
     /// Longer windows whose exits are counted, in pushes into the first cache.
     pub(super) windows: [u32; WINDOWS],
+    /// Vertices that left each of them unfinished.
     pub(super) window_exits: [u32; WINDOWS],
     pub(super) keep_corners: bool,
-    /// Where the polygon of each face begins and ends; empty where each face is on its own.
+    /// Where the polygon of each face begins and ends; empty if there are no polygons.
     pub(super) polygons: &'a [[u32; 2]],
     gathered: Vec<u32>,
-    /// The number of the attempt, and what it has overwritten.
+    /// The number of the current attempt.
     attempt: u32,
+    /// The vertices that the attempt changed, as they were before it.
     overwritten: Vec<(u32, SearchVertex<CACHES>)>,
     pub(super) new_to_old: Vec<u32>,
     pub(super) rotations: Vec<u8>,
-    /// Vertices that were candidates and are no more, though unfinished.
+    /// Vertices that were candidates and left the window, or a controllable cache, unfinished.
     pub(super) left: Vec<u32>,
 }
 
-/// What an attempt restores as a whole.
+/// What undo restores besides vertices.
 pub(super) struct Saved<M, const CACHES: usize> {
     caches: [Cache; CACHES],
     recent: M,
     window_exits: [u32; WINDOWS],
     /// How many faces were drawn.
     pub(super) drawn: usize,
+    /// How many entries `left` had.
     left: usize,
 }
 
@@ -91,18 +105,20 @@ pub(super) struct Candidate {
     pub(super) age: u32,
     /// Whether it is in the first cache.
     pub(super) is_inside: bool,
-    /// How many of its neighbours are missing from the first cache at least; of its neighbours and
-    /// itself from the one beside it.
+    /// The fewest of its neighbours that can be missing from the first cache; the fewest of its
+    /// neighbours and itself from the second.
     pub(super) missing: [u32; 2],
 }
 
 impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
-    /// Nothing is drawn; every vertex is a candidate of no window yet.
-    pub(super) fn new(
-        faces: &'a [[u32; 3]],
-        vertex_count: usize,
-        limits: [CacheLimits; CACHES],
-    ) -> Self {
+    /// Nothing is drawn, the caches are empty, and there are no candidates.
+    pub(super) fn new(faces: Faces<'a>, limits: [CacheLimits; CACHES]) -> Self {
+        // Each cache has 16 bits of `missing`, enough for two corners a face of all but hubs, and
+        // each window must fit in the ring.
+        const { assert!(CACHES <= 2 && 2 * HUB < 1 << 16 && M::SPAN as usize <= caches::RING) };
+        let (faces, vertex_count) = (faces.as_slice(), faces.vertex_count());
+
+        // Live counts, and from them where each row ends.
         let unused = SearchVertex {
             entered: [0; CACHES],
             row: 0,
@@ -122,12 +138,14 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
             vertex.missing = vertex.live.wrapping_mul(2 * everywhere);
         }
 
-        // Rows whose starts stand with their vertices: no second line of memory for a row.
+        // Filling moves each `row` back to the start of its row. Kept with the vertex, it costs no
+        // second cache line.
         let mut entries = vec![[0; 3]; faces.len() * 3];
         let numbered = (0..index32(faces.len())).zip(faces).rev();
         let items = numbered
             .map(|(face, &[a, b, c])| [(c, [face, a, b]), (b, [face, c, a]), (a, [face, b, c])]);
-        rows::place_from_behind(&mut vertices, |vertex| &mut vertex.row, items, &mut entries);
+        rows::place_backwards(&mut vertices, |vertex| &mut vertex.row, items, &mut entries);
+
         Self {
             faces,
             vertices,
@@ -155,7 +173,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.vertices[vertex as usize].live
     }
 
-    /// The first vertex with faces left, from this one on.
+    /// The first vertex with faces left, at or after `from`.
     pub(super) fn first_live(&self, from: u32) -> Option<u32> {
         let rest = &self.vertices[from as usize..];
         let skipped = rest.iter().position(|vertex| vertex.live != 0)?;
@@ -173,9 +191,12 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.vertices[vertex as usize].entered[cache] < self.caches[cache].first
     }
 
-    /// How many faces the last batch has, of those that end by faces or vertices.
+    /// How many faces are in the last batch; 0 if no cache limits the faces of a batch.
     pub(super) fn faces_in_batch(&self) -> usize {
-        let ends = |cache: &&Cache| cache.limits.batch_faces != u32::MAX;
+        let ends = |cache: &&Cache| {
+            let limits = cache.limits;
+            limits.batch_faces != u32::MAX || limits.batch_vertices != u32::MAX
+        };
         let batches = self.caches.iter().filter(ends);
         batches.map(|cache| cache.faces as usize).max().unwrap_or(0)
     }
@@ -184,7 +205,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.recent != M::default()
     }
 
-    /// Counts exits from here on.
+    /// Counts exits from 0 again.
     pub(super) fn reset_exits(&mut self) {
         for cache in &mut self.caches {
             cache.exits = 0;
@@ -192,7 +213,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.window_exits = [0; WINDOWS];
     }
 
-    /// What [`undo`](Self::undo) goes back to.
+    /// What [`undo`](Self::undo) needs to come back to this state.
     pub(super) fn save(&self) -> Saved<M, CACHES> {
         Saved {
             caches: self.caches.clone(),
@@ -203,7 +224,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         }
     }
 
-    /// Starts an attempt: what is drawn with `UNDO` from here on can be taken back.
+    /// Starts an attempt: what is drawn with `UNDO` from now on can be taken back.
     pub(super) fn begin(&mut self) {
         if self.attempt == u32::MAX {
             self.vertices.iter_mut().for_each(|v| v.attempt = 0);
@@ -212,7 +233,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.attempt += 1;
     }
 
-    /// Takes the attempt back.
+    /// Takes the attempt back, to the state at `save`.
     pub(super) fn undo(&mut self, saved: &Saved<M, CACHES>) {
         for (vertex, before) in self.overwritten.drain(..) {
             self.vertices[vertex as usize] = before;
@@ -228,7 +249,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.window_exits = saved.window_exits;
     }
 
-    /// Leaves the attempt as it is.
+    /// Ends the attempt and leaves what it drew.
     pub(super) fn keep(&mut self) {
         self.overwritten.clear();
     }
@@ -238,7 +259,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.faces.len()
     }
 
-    /// The vertex, after remembering what it was before this attempt.
+    /// The vertex, to be changed; with `UNDO` it is saved first, once an attempt.
     #[inline]
     fn change<const UNDO: bool>(&mut self, vertex: u32) -> &mut SearchVertex<CACHES> {
         let entry = &mut self.vertices[vertex as usize];
@@ -249,23 +270,28 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         entry
     }
 
-    /// Shows up to `most` candidates, the oldest first, with their numbers; how many.
+    /// Calls `visit` with up to `most` candidates, numbered from 0, the oldest first; returns how
+    /// many.
     #[inline]
     pub(super) fn candidates(&self, most: u32, mut visit: impl FnMut(usize, Candidate)) -> u32 {
         let cache = &self.caches[0];
         let start = cache.pushes - self.window;
         let mut recent = self.recent.rotated(start);
         let count = recent.count().min(most);
+
         for i in 0..count as usize {
             let entered = start + recent.take_lowest();
             let vertex = cache.pushed(entered);
             let known = &self.vertices[vertex as usize];
+
+            // The second cache may miss the vertex itself; for the first one `is_inside` says that.
             let mut missing = [known.missing_neighbours(0), 0];
             if CACHES > 1 {
                 let last = CACHES - 1;
                 let itself = u32::from(known.entered[last] < self.caches[last].first);
                 missing[1] = known.missing_neighbours(1) + itself;
             }
+
             let candidate = Candidate {
                 vertex,
                 live: known.live,
@@ -279,7 +305,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
     }
 }
 
-/// One vertex more that is missing from a cache.
+/// 1 in the 16 bits of a cache in [`SearchVertex::missing`].
 #[inline]
 const fn one_in(cache: usize) -> u32 {
     1 << (16 * cache)

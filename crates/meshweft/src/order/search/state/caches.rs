@@ -1,9 +1,14 @@
 //! The caches that a traversal models.
+//!
+//! Pushes into a cache are numbered, and a vertex knows the number of its last push. It is in the
+//! cache if that is [`Cache::first`] or later: evicting the oldest or ending a batch only raises
+//! `first`. A controllable cache instead sets the number of an evicted vertex to 0.
 
 use crate::index::index32;
 
-/// Entries of a ring of pushed vertices; more than any window.
-pub(super) const RING: usize = 256;
+/// Entries of the ring of pushed vertices. More than any window: those of candidates are asserted
+/// in `State::new`, the longer ones (up to 236) by a test of `preset`.
+pub(in crate::order::search) const RING: usize = 256;
 
 /// What is modelled of a cache.
 #[derive(Debug, Clone, Copy)]
@@ -14,8 +19,8 @@ pub(in crate::order::search) struct CacheLimits {
     pub(in crate::order::search) batch_faces: u32,
     /// Most vertices in a batch; `u32::MAX` for no limit.
     pub(in crate::order::search) batch_vertices: u32,
-    /// Controllable: a finished vertex leaves at once, and the one that is dearest to finish makes
-    /// room. Otherwise the oldest leaves.
+    /// Controllable: a finished vertex leaves at once, and to make room the one that costs most to
+    /// finish. Otherwise the oldest leaves.
     pub(in crate::order::search) is_controllable: bool,
 }
 
@@ -30,27 +35,30 @@ impl CacheLimits {
     }
 }
 
-/// A cache, emptied where a batch ends.
+/// The state of a cache, which is emptied where a batch ends.
 #[derive(Clone)]
 pub(in crate::order::search) struct Cache {
     pub(super) limits: CacheLimits,
-    /// Number of the next push.
+    /// The number of the next push. Starts at [`RING`], so that a window fits before the first push
+    /// and 0 can mean never.
     pub(super) pushes: u32,
     /// A vertex whose last push has a lower number is not in the cache.
     pub(super) first: u32,
-    /// Faces of the batch.
+    /// Faces in the current batch.
     pub(super) faces: u32,
-    /// Vertices of the batch.
+    /// Vertices pushed in the current batch.
     pub(super) vertices: u32,
-    /// Controllable: unfinished vertices in it, and those that the face being drawn finishes.
+    /// Controllable: how many vertices are in it; those that the face being drawn finishes leave
+    /// after it.
     pub(super) held: u32,
-    /// Vertices that left it unfinished.
+    /// How many vertices left it unfinished.
     pub(in crate::order::search) exits: u32,
-    /// The vertex of each of the last pushes.
+    /// The vertex of each of the last pushes, by the push number modulo [`RING`].
     pub(super) ring: [u32; RING],
 }
 
 impl Cache {
+    /// An empty cache; `nobody` is the number past the last vertex, which is on no face.
     pub(super) fn new(limits: CacheLimits, nobody: u32) -> Self {
         Self {
             limits,
@@ -64,7 +72,7 @@ impl Cache {
         }
     }
 
-    /// Whether a face with so many misses does not fit in the batch.
+    /// Whether a face with `misses` misses does not fit in the batch.
     #[inline]
     pub(super) fn is_full(&self, misses: u32) -> bool {
         self.faces == self.limits.batch_faces

@@ -1,4 +1,4 @@
-//! Drawing faces: what that does to the caches, and telling the neighbours.
+//! Drawing faces: what changes in the caches, and in the counts of the neighbours.
 
 use std::ops::Range;
 
@@ -16,9 +16,10 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         let row = self.row(focus);
         let row = self.rows[row].iter().map(|&[face, ..]| face);
         let count = gather_live(row, &self.drawn, &mut gathered);
+
         for &face in &gathered[..count] {
             if self.drawn[face as usize] {
-                // It names a vertex twice, or its polygon is drawn.
+                // It names the focus twice, or was drawn with its polygon.
                 continue;
             }
             match self.polygons.get(face as usize) {
@@ -31,12 +32,18 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
                 break;
             }
         }
+
         self.gathered = gathered;
     }
 
+    /// Draws a face in all caches.
     #[inline]
     fn draw_face<const UNDO: bool>(&mut self, face: u32) {
         let corners = self.faces[face as usize];
+
+        // Which corners each cache misses, after a new batch if the face does not fit in the
+        // current one. `absent` is the same by corner, in the 16-bit counts of
+        // `SearchVertex::missing`.
         let mut missing = [[false; 3]; CACHES];
         let mut absent = [0_u32; 3];
         for (cache, missing) in missing.iter_mut().enumerate() {
@@ -51,7 +58,9 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
             }
             self.caches[cache].faces += 1;
         }
-        // From here on the face is no live face, so its own pushes are not announced to it.
+
+        // Take the face off the counts of its corners. It is marked first, so that its own pushes
+        // are not announced to it.
         self.drawn[face as usize] = true;
         let mut finished = 0_u32;
         for i in 0..3 {
@@ -65,6 +74,8 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
                 self.forget(entered);
             }
         }
+
+        // Turn its corners so that the hits of the first cache come first.
         let set = missing[0].map(usize::from);
         let rotation = match self.keep_corners {
             true => 0,
@@ -72,6 +83,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         };
         self.rotations.push(rotation);
         self.new_to_old.push(face);
+
         let turned = turned(corners, rotation);
         for cache in 0..CACHES {
             // A face may name a vertex twice, and with kept corners an earlier push may have
@@ -82,34 +94,41 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
                 }
             }
         }
-        // A finished corner makes room for the next face only: this one needs it.
+
+        // Finished corners leave a controllable cache after the face: until then it needs them.
         if self.caches[0].limits.is_controllable {
             self.caches[0].held -= finished;
         }
     }
 
-    /// Takes a push off the candidates, if it still is one.
+    /// Removes the vertex of push `entered` from the candidates, if it is one.
     #[inline]
     fn forget(&mut self, entered: u32) {
         let is_recent = self.caches[0].pushes - entered <= self.window;
         self.recent.clear_if(is_recent, entered);
     }
 
+    /// Pushes a vertex of `face` into a cache, and evicts another one if the cache was full.
     #[inline]
     fn push<const UNDO: bool>(&mut self, vertex: u32, cache: usize, face: [u32; 3]) {
         let now = self.caches[cache].pushes;
         let entry = self.change::<UNDO>(vertex);
         let before = std::mem::replace(&mut entry.entered[cache], now);
         let is_live = entry.live != 0;
+
+        // Candidates follow the first cache.
         if cache == 0 {
             self.forget(before);
             self.slide_windows::<UNDO>(now);
             self.recent.set_if(is_live, now);
         }
+
         let state = &mut self.caches[cache];
         state.ring[now as usize % RING] = vertex;
         state.pushes = now + 1;
         state.vertices = state.vertices.saturating_add(1);
+
+        // Make room.
         if state.limits.is_controllable {
             state.held += 1;
             if state.held > state.limits.size {
@@ -120,12 +139,14 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
             state.first += 1;
             self.exit::<UNDO>(leaving, cache);
         }
+
         if is_live {
             self.announce::<UNDO>(vertex, one_in(cache).wrapping_neg());
         }
     }
 
-    /// Lets go what drops out of the windows as push `now` enters them.
+    /// Counts the vertices that leave the longer windows as push `now` enters, and removes the
+    /// candidate that leaves the window; a controllable cache evicts it.
     #[inline]
     fn slide_windows<const UNDO: bool>(&mut self, now: u32) {
         if CACHES > 1 {
@@ -135,6 +156,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
                 *exits += u32::from(known.live != 0 && known.entered[0] == entered);
             }
         }
+
         let expired = now - self.window;
         if self.recent.contains(expired) {
             let leaving = self.caches[0].pushed(expired);
@@ -147,8 +169,8 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         }
     }
 
-    /// Evicts the vertex of a controllable cache that is dearest to finish, ties to the oldest, but
-    /// no corner of the face being drawn.
+    /// Evicts the vertex of a controllable cache that costs most to finish, ties to the oldest;
+    /// never a corner of `face`, which is being drawn.
     fn make_room<const UNDO: bool>(&mut self, face: [u32; 3]) {
         let mut dearest = None;
         let mut most = i64::MIN;
@@ -183,6 +205,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         }
     }
 
+    /// Empties a cache: all its vertices exit, and a new batch starts.
     #[cold]
     fn end_batch<const UNDO: bool>(&mut self, cache: usize) {
         let state = &mut self.caches[cache];
@@ -196,7 +219,8 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         }
     }
 
-    /// Tells the neighbours of `vertex`, unless it is a hub, how many more of them are missing.
+    /// Tells the neighbours of `vertex`, unless it is a hub, that it left or entered a cache:
+    /// `change` is [`one_in`] that cache, or its wrapped negative.
     #[inline]
     fn announce<const UNDO: bool>(&mut self, vertex: u32, change: u32) {
         let row = self.row(vertex);
@@ -205,7 +229,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         }
         for entry in row {
             let [face, a, b] = self.rows[entry];
-            // Of a drawn face nothing changes: no branch for the processor to guess.
+            // Multiplied by 0 for a drawn face: no branch for the processor to guess.
             let change = change.wrapping_mul(u32::from(!self.drawn[face as usize]));
             for neighbour in [a, b] {
                 let neighbour = self.change::<UNDO>(neighbour);

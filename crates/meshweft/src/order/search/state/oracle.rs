@@ -1,12 +1,13 @@
-//! The state against plain recounts, on meshes that nobody would model.
+//! The state compared with plain recounts, on random faces.
 
 use proptest::prelude::*;
 
 use super::caches::RING;
 use super::*;
 use crate::cache::{self, BatchModel, CacheModel};
+use crate::random::SplitMix64;
 
-/// Faces of a few vertices: fans, repeated and degenerate faces all come up.
+/// Faces of a few vertices: fans, repeated and degenerate faces all occur.
 fn soup() -> impl Strategy<Value = Vec<[u32; 3]>> {
     prop_oneof![
         prop::collection::vec(prop::array::uniform3(0..12_u32), 0..60),
@@ -53,7 +54,7 @@ fn turned<M, const CACHES: usize>(state: &State<'_, M, CACHES>) -> Vec<[u32; 3]>
 }
 
 impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
-    /// The counts of missing neighbours, faces left and candidates, from what is drawn alone.
+    /// Recounts missing neighbours, live faces and candidates from the drawn faces, and compares.
     fn assert_counts(&self) {
         for (v, vertex) in (0_u32..).zip(&self.vertices[..self.vertices.len() - 1]) {
             let mut missing = [0_u32; CACHES];
@@ -81,6 +82,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
                 assert_eq!(counted, missing, "neighbours of {v} missing from {cache}");
             }
         }
+
         let mut expected: Vec<u32> = (0..index32(self.vertices.len() - 1))
             .filter(|&v| {
                 let vertex = &self.vertices[v as usize];
@@ -95,28 +97,26 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
     }
 }
 
-/// Draws everything, with attempts that are taken back between.
+/// Draws everything, with attempts in between that are taken back.
 fn draw_all<M: Mask, const CACHES: usize>(
     faces: &[[u32; 3]],
     limits: [CacheLimits; CACHES],
     window: u32,
     keep_corners: bool,
-    mut random: u64,
+    seed: u64,
 ) {
-    let vertex_count = faces
-        .as_flattened()
-        .iter()
-        .max()
-        .map_or(0, |&v| v as usize + 1);
-    let mut state = State::<M, CACHES>::new(faces, vertex_count, limits);
+    let faces = Faces::from(faces);
+    let mut numbers = SplitMix64(seed);
+    let mut state = State::<M, CACHES>::new(faces, limits);
     state.window = window.max(limits[0].size).min(M::SPAN);
     state.keep_corners = keep_corners;
     let mut any_live = |state: &State<'_, M, CACHES>| {
-        random = random.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
-        let from = u32::try_from((random >> 33) % (vertex_count as u64 + 1)).unwrap();
+        let from = index32(numbers.below(faces.vertex_count() + 1));
         state.first_live(from).or_else(|| state.first_live(0))
     };
+
     while let Some(focus) = any_live(&state) {
+        // An attempt of up to four vertices.
         let before = (
             state.vertices.clone(),
             state.drawn.clone(),
@@ -130,6 +130,8 @@ fn draw_all<M: Mask, const CACHES: usize>(
                 state.assert_counts();
             }
         }
+
+        // Taken back, nothing but the attempt numbers has changed.
         state.undo(&saved);
         let known = |vertices: &[SearchVertex<CACHES>]| -> Vec<_> {
             let known = |v: &SearchVertex<CACHES>| (v.entered, v.row, v.live, v.missing);
@@ -137,9 +139,12 @@ fn draw_all<M: Mask, const CACHES: usize>(
         };
         assert_eq!(known(&state.vertices), known(&before.0));
         assert_eq!((&state.drawn, &state.left), (&before.1, &before.2));
+
         state.draw::<false>(focus);
         state.assert_counts();
     }
+
+    // The pushes are those of a replay; a controllable cache has no fewer than the best schedule.
     assert_eq!(state.new_to_old.len(), faces.len());
     let turned = turned(&state);
     for (cache, limits) in state.caches.iter().zip(limits) {

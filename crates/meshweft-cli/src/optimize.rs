@@ -1,0 +1,143 @@
+//! `optimize`: the main job.
+
+use std::fs;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use clap::Args;
+use meshweft::CacheModel;
+use meshweft::files::Document;
+use meshweft::operations::{self, OptimizeReport, Options};
+
+use crate::run::arguments::{Reading, Run};
+use crate::run::jobs::{Job, Jobs};
+use crate::run::ordering::Ordering;
+use crate::run::output::Report;
+use crate::run::watch::Watch;
+use crate::run::{self, Outcome, output, write};
+use crate::usage::Usage;
+
+#[derive(Debug, Args)]
+pub(crate) struct Optimize {
+    /// Files, folders with files, or patterns such as 'assets/**/*.glb'
+    ///
+    /// .gltf, .glb, .obj, .ply, .off, .stl, .wrl or .vrml, optionally followed by .gz. A folder
+    /// stands for every such file in it and in the folders below it.
+    #[arg(required = true, value_name = "IN")]
+    inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    run: Run,
+    #[command(flatten)]
+    ordering: Ordering,
+    /// Write what was moved as JSON
+    ///
+    /// Read it as `out[i] = in[new_to_old[i]]`, for faces and vertices; new corner j of a face is
+    /// its old corner (j + rotation) % 3.
+    #[arg(long, value_name = "FILE")]
+    write_permutation: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    report: Report,
+}
+
+/// Optimises each file.
+pub(crate) fn run(arguments: &Optimize) -> Result<()> {
+    // What cannot be done is said before a file is touched.
+    let options = arguments.ordering.options()?;
+    let jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
+    if arguments.write_permutation.is_some() && !jobs.is_one_file {
+        return Err(Usage("--write-permutation takes one file at a time".into()).into());
+    }
+    let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
+    let work = |job: &Job| optimize(job, &jobs.shared_buffers, &options, shows_bar, arguments);
+    run::over_files(
+        "optimize",
+        &jobs.list,
+        &arguments.run,
+        &arguments.report,
+        work,
+    )
+}
+
+/// Orders the meshes of a file, and writes it.
+fn optimize(
+    job: &Job,
+    shared_buffers: &[PathBuf],
+    options: &Options,
+    shows_bar: bool,
+    arguments: &Optimize,
+) -> Result<Outcome> {
+    let start = Instant::now();
+    let mut document = Document::open(&job.input, arguments.reading.options(shared_buffers))?;
+
+    let watch = Watch::new(arguments.ordering.time(), shows_bar);
+    let mut report = operations::optimize(&mut document, options, &watch)?;
+    watch.finish();
+
+    if arguments.run.writes(report.is_changed()) {
+        let bytes = write::write(job, &document, report.is_changed())?;
+        report.set_output(&job.target, bytes);
+    }
+    if let Some(file) = &arguments.write_permutation {
+        let text = report.permutations_to_json();
+        fs::write(file, text).with_context(|| file.display().to_string())?;
+    }
+    report.seconds = Some(start.elapsed().as_secs_f64());
+
+    Ok(Outcome {
+        json: report.to_json(),
+        total: report.total_to_json(),
+        text: text(&report),
+        notes: output::note_lines(&report.file, &report.notes),
+    })
+}
+
+/// A line for the file, one for its caches, one for GPUs, one for what became of it.
+fn text(report: &OptimizeReport) -> String {
+    let (before, after) = (&report.total.before, &report.total.after);
+    let mut text = format!(
+        "{}\n  {} faces, {} vertices",
+        report.file.display(),
+        before.faces,
+        before.vertices,
+    );
+
+    // Caches: those that were ordered for.
+    let target = report.options.target;
+    let is_gpu = |model: &CacheModel| matches!(model, CacheModel::Batch(_));
+    let ordered_for = |model: &CacheModel| target.models().contains(model);
+    let caches = before.acmr().zip(after.acmr());
+    let caches = caches.filter(|((model, _), _)| !is_gpu(model) && ordered_for(model));
+    let caches = caches.map(|((model, a), (_, b))| format!("{model} {a:.4} -> {b:.4}"));
+    let caches: Vec<_> = caches.collect();
+    if !caches.is_empty() {
+        text += &format!("\n  misses per face: {}", caches.join(", "));
+    }
+
+    // GPUs: all.
+    let gpus = before.atvr().zip(after.atvr());
+    let gpus = gpus.filter(|((model, _), _)| is_gpu(model));
+    let gpus = gpus.map(|((model, a), (_, b))| format!("{model} {a:.3} -> {b:.3}"));
+    let gpus: Vec<_> = gpus.collect();
+    text += &format!("\n  transforms per vertex: {}", gpus.join(", "));
+
+    if let Some(scheduled) = report.scheduled() {
+        let per_face = scheduled as f64 / after.faces.max(1) as f64;
+        text += &format!("\n  scheduled pushes per face: {per_face:.4}");
+    }
+
+    let worse_in: Vec<String> = report.worse_in().map(|model| model.to_string()).collect();
+    if !worse_in.is_empty() {
+        text += &format!("\n  misses more in: {}", worse_in.join(", "));
+    }
+
+    text += &match (report.is_changed(), &report.output) {
+        (true, Some(output)) => format!("\n  written to {}", output.display()),
+        (false, Some(output)) => format!("\n  nothing to improve: copied to {}", output.display()),
+        (true, None) => "\n  not written: dry run".to_owned(),
+        (false, None) => "\n  nothing to improve: left as it is".to_owned(),
+    };
+    text
+}

@@ -1,0 +1,172 @@
+//! Are these the same triangles, and which order is better?
+
+use std::cmp::Ordering;
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+use super::counts::Counts;
+use super::json;
+use crate::cache::CacheModel;
+use crate::faces::turned;
+use crate::files::{Document, MeshEntry, Note};
+
+/// How two documents differ as triangles and in misses under these models.
+///
+/// # Complexity
+/// Time O(faces · log faces), space 36 bytes a face of both, and the counts.
+#[must_use]
+pub fn compare(a: &Document, b: &Document, models: &[CacheModel]) -> CompareReport {
+    // Positions tell vertices apart whatever their numbers; without them the numbers must do.
+    let mut entries = a.meshes().iter().chain(b.meshes());
+    let is_by_position = entries.all(|e| e.mesh.positions().len() == e.mesh.vertex_count());
+    let [only_in_a, only_in_b] = differences(
+        &triangles(a.meshes(), is_by_position),
+        &triangles(b.meshes(), is_by_position),
+    );
+
+    let sides = [a, b].map(|document| ComparedFile::new(document, models));
+    let better = better(&sides[0].counts, &sides[1].counts);
+    CompareReport {
+        sides,
+        only_in: [only_in_a, only_in_b],
+        is_by_position,
+        better,
+    }
+}
+
+/// What [`compare`] found.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct CompareReport {
+    /// The two files.
+    pub sides: [ComparedFile; 2],
+    /// How many triangles only one of them has.
+    pub only_in: [usize; 2],
+    /// Whether vertices were told apart by their positions, not by their numbers.
+    pub is_by_position: bool,
+    /// The side that misses less, under the first model that tells them apart: 0 or 1.
+    pub better: Option<usize>,
+}
+
+/// One of two files that are compared.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct ComparedFile {
+    /// The file.
+    pub file: PathBuf,
+    /// Its size and that of the buffers beside it that were read.
+    pub bytes: u64,
+    /// All meshes together.
+    pub counts: Counts,
+    /// What cannot be re-ordered, and why.
+    pub notes: Vec<Note>,
+}
+
+impl ComparedFile {
+    fn new(document: &Document, models: &[CacheModel]) -> Self {
+        let entries = document.meshes();
+        let counts = Counts::of_each(entries, models);
+        Self {
+            file: document.path().to_owned(),
+            bytes: document.source_bytes(),
+            counts: Counts::total(entries, &counts, models),
+            notes: document.notes().to_vec(),
+        }
+    }
+
+    fn json(&self) -> Value {
+        let mut object = self.counts.json();
+        let file = self.file.display().to_string();
+        object.shift_insert(0, "file".into(), json!(file));
+        object.shift_insert(1, "bytes".into(), json!(self.bytes));
+        Value::Object(object)
+    }
+}
+
+impl CompareReport {
+    /// Whether both have the same triangles.
+    #[must_use]
+    pub fn is_same(&self) -> bool {
+        self.only_in == [0, 0]
+    }
+
+    /// The better side as `a`, `b` or `equal`.
+    #[must_use]
+    pub fn better_name(&self) -> &'static str {
+        match self.better {
+            Some(0) => "a",
+            Some(_) => "b",
+            None => "equal",
+        }
+    }
+
+    /// The report as one line of JSON.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let compared_by = match self.is_by_position {
+            true => "position",
+            false => "vertex number",
+        };
+        let [only_in_a, only_in_b] = self.only_in;
+        let mut report = json::head("compare");
+        report.insert("a".into(), self.sides[0].json());
+        report.insert("b".into(), self.sides[1].json());
+        report.insert("same_triangles".into(), json!(self.is_same()));
+        report.insert("compared_by".into(), json!(compared_by));
+        report.insert("only_in_a".into(), json!(only_in_a));
+        report.insert("only_in_b".into(), json!(only_in_b));
+        report.insert("better".into(), json!(self.better_name()));
+        Value::Object(report).to_string()
+    }
+}
+
+/// Which side misses less a face, under the first model that tells them apart.
+fn better(a: &Counts, b: &Counts) -> Option<usize> {
+    for ((_, misses_a), (_, misses_b)) in a.misses.iter().zip(&b.misses) {
+        // The numbers of faces may differ: cross-multiplied, so that nothing is rounded.
+        let left = u128::from(*misses_a) * b.faces.max(1) as u128;
+        let right = u128::from(*misses_b) * a.faces.max(1) as u128;
+        match left.cmp(&right) {
+            Ordering::Less => return Some(0),
+            Ordering::Greater => return Some(1),
+            Ordering::Equal => {}
+        }
+    }
+    None
+}
+
+/// All triangles, sorted; a triangle starts at its least corner, the orientation kept.
+fn triangles(entries: &[MeshEntry], by_position: bool) -> Vec<[[u32; 3]; 3]> {
+    let mut triangles = Vec::new();
+    for entry in entries {
+        let identity = |vertex: u32| match by_position {
+            // Zero has two signs, which are one place.
+            true => entry.mesh.positions()[vertex as usize].map(|x| (x + 0.0).to_bits()),
+            false => [vertex, 0, 0],
+        };
+        for face in entry.mesh.faces() {
+            let corners = face.map(identity);
+            let turns = [0, 1, 2].map(|rotation| turned(corners, rotation));
+            triangles.push(turns.into_iter().min().unwrap_or(corners));
+        }
+    }
+    triangles.sort_unstable();
+    triangles
+}
+
+/// How many entries each of two sorted lists has that the other has not.
+fn differences<T: Ord>(a: &[T], b: &[T]) -> [usize; 2] {
+    let (mut i, mut j, mut common) = (0, 0, 0);
+    while i < a.len() && j < b.len() {
+        match a[i].cmp(&b[j]) {
+            Ordering::Less => i += 1,
+            Ordering::Greater => j += 1,
+            Ordering::Equal => {
+                (i, j) = (i + 1, j + 1);
+                common += 1;
+            }
+        }
+    }
+    [a.len() - common, b.len() - common]
+}

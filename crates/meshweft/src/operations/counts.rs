@@ -1,0 +1,121 @@
+//! Counting misses of meshes, one by one and together.
+
+use crate::cache::{self, CacheModel, ratio};
+use crate::faces::Faces;
+
+/// Bytes of a vertex record that overfetch is counted for: position, normal, texture coordinates.
+pub(super) const VERTEX_SIZE: usize = 32;
+
+/// The caches that are counted for where none is named: three FIFO caches and three GPUs.
+pub const USUAL_CACHES: [CacheModel; 6] = [
+    CacheModel::fifo(12),
+    CacheModel::fifo(16),
+    CacheModel::fifo(32),
+    CacheModel::NVIDIA,
+    CacheModel::AMD,
+    CacheModel::INTEL,
+];
+
+/// What is counted on a mesh, or summed over meshes.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Counts {
+    /// Vertices, used or not.
+    pub vertices: usize,
+    /// Vertices that some face names.
+    pub used_vertices: usize,
+    /// Faces.
+    pub faces: usize,
+    /// Misses under each model, in the order that was asked for.
+    pub misses: Vec<(CacheModel, u64)>,
+    /// Bytes fetched over bytes of the used vertices, with records of 32 bytes.
+    pub overfetch: f64,
+}
+
+impl Counts {
+    /// Counts one mesh.
+    ///
+    /// # Complexity
+    /// One [`cache::misses`] a model.
+    #[must_use]
+    pub fn of<'a>(faces: impl Into<Faces<'a>>, models: &[CacheModel]) -> Self {
+        let faces = faces.into();
+        let misses = models.iter();
+        let misses = misses.map(|&model| (model, cache::misses(faces, model)));
+        Self {
+            vertices: faces.vertex_count(),
+            used_vertices: cache::used_vertices(faces),
+            faces: faces.len(),
+            misses: misses.collect(),
+            overfetch: cache::overfetch(faces, VERTEX_SIZE),
+        }
+    }
+
+    /// Misses per face under each model.
+    pub fn acmr(&self) -> impl Iterator<Item = (CacheModel, f64)> {
+        let per_face = |&(model, misses): &(CacheModel, u64)| (model, ratio(misses, self.faces));
+        self.misses.iter().map(per_face)
+    }
+
+    /// Misses per used vertex under each model.
+    pub fn atvr(&self) -> impl Iterator<Item = (CacheModel, f64)> {
+        let used = self.used_vertices;
+        let per_vertex = move |&(model, misses): &(CacheModel, u64)| (model, ratio(misses, used));
+        self.misses.iter().map(per_vertex)
+    }
+}
+
+#[cfg(feature = "files")]
+mod of_files {
+    use std::collections::BTreeMap;
+
+    use super::{CacheModel, Counts};
+    use crate::files::MeshEntry;
+
+    impl Counts {
+        /// Counts each mesh of a file.
+        ///
+        /// # Complexity
+        /// As [`of`](Self::of) of each.
+        #[must_use]
+        pub fn of_each(entries: &[MeshEntry], models: &[CacheModel]) -> Vec<Self> {
+            let meshes = entries.iter();
+            meshes.map(|entry| Self::of(&entry.mesh, models)).collect()
+        }
+
+        /// The sum over the meshes of a file, vertices that several share counted once.
+        ///
+        /// `counts` are those of the meshes, under these models.
+        ///
+        /// # Complexity
+        /// Time O(faces), space one byte a vertex.
+        #[must_use]
+        pub fn total(entries: &[MeshEntry], counts: &[Self], models: &[CacheModel]) -> Self {
+            let mut total = Self {
+                misses: models.iter().map(|&model| (model, 0)).collect(),
+                ..Self::default()
+            };
+            let mut groups: BTreeMap<usize, Vec<bool>> = BTreeMap::new();
+            let mut fetched = 0.0;
+            for (entry, count) in entries.iter().zip(counts) {
+                let group = groups.entry(entry.vertex_group).or_insert_with(|| {
+                    total.vertices += count.vertices;
+                    vec![false; count.vertices]
+                });
+                for &vertex in entry.mesh.faces().iter().flatten() {
+                    let used = &mut group[vertex as usize];
+                    total.used_vertices += usize::from(!std::mem::replace(used, true));
+                }
+                total.faces += count.faces;
+                for (sum, (_, misses)) in total.misses.iter_mut().zip(&count.misses) {
+                    sum.1 += misses;
+                }
+                fetched += count.overfetch * count.used_vertices as f64;
+            }
+            if total.used_vertices > 0 {
+                total.overfetch = fetched / total.used_vertices as f64;
+            }
+            total
+        }
+    }
+}

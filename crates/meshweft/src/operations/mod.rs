@@ -1,0 +1,42 @@
+//! The jobs of this toolkit, each as one call. Programs and bindings parse options, call a job and print
+//! its report.
+//!
+//! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
+//! document and keeps every other byte, `inspect` counts it as it is, and `compare` tells
+//! whether two documents hold the same triangles; their reports are values that know their JSON.
+//! [`Method`] has every order by name.
+//!
+//! This is the only place that joins files and algorithms. Read `options`, then `rounds` for why a run
+//! on its own output changes nothing, then `improve`.
+
+mod algorithm;
+#[cfg(feature = "files")]
+mod compare;
+mod counts;
+#[cfg(feature = "files")]
+mod improve;
+mod indices;
+#[cfg(feature = "files")]
+mod inspect;
+#[cfg(feature = "files")]
+mod json;
+mod methods;
+#[cfg(feature = "files")]
+mod optimize;
+#[cfg(feature = "files")]
+mod optimize_json;
+mod options;
+mod rounds;
+
+#[cfg(feature = "files")]
+pub use compare::{CompareReport, ComparedFile, compare};
+pub use counts::{Counts, USUAL_CACHES};
+pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};
+#[cfg(feature = "files")]
+pub use inspect::{InspectReport, inspect};
+#[cfg(feature = "files")]
+pub use json::SCHEMA;
+pub use methods::{Method, grid_orders, linear_arrangement_cost};
+#[cfg(feature = "files")]
+pub use optimize::{CountChange, OptimizeError, OptimizeReport, OptimizedMesh, optimize};
+pub use options::{Greedy, Options, OptionsError};

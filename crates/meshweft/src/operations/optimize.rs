@@ -1,0 +1,278 @@
+//! The main job: a document's faces and vertices in a better order.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use super::counts::{Counts, USUAL_CACHES};
+use super::improve::{Improvement, improve};
+use super::options::{Options, OptionsError};
+use crate::cache::CacheModel;
+use crate::files::{Document, FileError, Note};
+use crate::order::Target;
+use crate::permutation::{FaceOrder, VertexOrder};
+use crate::progress::Progress;
+
+/// Puts the faces of a document in an order that misses less, and its vertices in the order of their
+/// first use.
+///
+/// Rounds go on until one gains nothing, so a document that was optimised is not changed again, except
+/// after a run with a budget, a time limit, the faithful mode or [`Options::allow_worse`]. A mesh whose
+/// order would not get better stays as it is: the misses of the target's caches are added up, and a
+/// gain of less than .5 % at effort `best` and `max`, .2 % for several caches at once, counts as none,
+/// because it is within the noise of a search. The document is changed in memory:
+/// [`Document::write`] writes it.
+///
+/// The result is the same on any number of threads, those of the current pool with feature
+/// `parallel`.
+///
+/// # Errors
+/// [`OptimizeError::Options`] for options that cannot be combined; nothing is changed then.
+/// [`OptimizeError::File`] if the document refuses an order, which it does not for those made here.
+///
+/// # Complexity
+/// Two to four times the cost of the order; 60 to 100 bytes a face on top of the document.
+///
+/// ```no_run
+/// use std::path::Path;
+/// use meshweft::files::{Document, ReadOptions};
+/// use meshweft::operations::{Options, optimize};
+///
+/// let mut document = Document::open(Path::new("scene.glb"), ReadOptions::default())?;
+/// let report = optimize(&mut document, &Options::default(), &())?;
+/// if report.is_changed() {
+///     document.write(Path::new("ordered.glb"))?;
+/// }
+/// println!("{}", report.to_json());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn optimize(
+    document: &mut Document,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<OptimizeReport, OptimizeError> {
+    options.check()?;
+    if options.greedy.is_some() && progress.time_spent().is_some() {
+        return Err(OptionsError::GreedyIsOnePass.into());
+    }
+    let models = counted_models(options.target);
+    let before = Counts::of_each(document.meshes(), &models);
+    let improvement = improve(document.meshes(), options, progress);
+    improvement.apply(document)?;
+    let after = Counts::of_each(document.meshes(), &models);
+    Ok(OptimizeReport::new(
+        document,
+        options,
+        &models,
+        improvement,
+        before.into_iter().zip(after),
+    ))
+}
+
+/// The caches that are ordered for, and the usual ones.
+fn counted_models(target: Target) -> Vec<CacheModel> {
+    let mut models = target.models().to_vec();
+    models.extend(
+        USUAL_CACHES
+            .iter()
+            .filter(|&model| !target.models().contains(model)),
+    );
+    models
+}
+
+/// Why a document was not optimised.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum OptimizeError {
+    /// The options cannot be combined.
+    Options(OptionsError),
+    /// The document does not take an order.
+    File(FileError),
+}
+
+impl From<OptionsError> for OptimizeError {
+    fn from(error: OptionsError) -> Self {
+        Self::Options(error)
+    }
+}
+
+impl From<FileError> for OptimizeError {
+    fn from(error: FileError) -> Self {
+        Self::File(error)
+    }
+}
+
+impl fmt::Display for OptimizeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Options(error) => error.fmt(f),
+            Self::File(error) => error.fmt(f),
+        }
+    }
+}
+
+// No `source`: the text above already says it.
+impl std::error::Error for OptimizeError {}
+
+/// What [`optimize`] did. The caller may add where it went, its size there and the time it took.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct OptimizeReport {
+    /// The file that was read.
+    pub file: PathBuf,
+    /// The file that was written, if any: set by the caller.
+    pub output: Option<PathBuf>,
+    /// Size of the file and of the buffers beside it that were read.
+    pub bytes_before: u64,
+    /// The same of what was written, or the size before where nothing is changed.
+    pub bytes_after: Option<u64>,
+    /// How long it took: set by the caller, who has a clock.
+    pub seconds: Option<f64>,
+    /// What was asked for.
+    pub options: Options,
+    /// Each mesh.
+    pub meshes: Vec<OptimizedMesh>,
+    /// All meshes together.
+    pub total: CountChange,
+    /// Whether the caller stopped it before it was settled.
+    pub is_stopped: bool,
+    /// What cannot be re-ordered, and why.
+    pub notes: Vec<Note>,
+    /// The vertex orders of the groups that may move.
+    vertex_orders: BTreeMap<usize, VertexOrder>,
+}
+
+/// What was counted before and after.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct CountChange {
+    /// Before.
+    pub before: Counts,
+    /// After.
+    pub after: Counts,
+}
+
+/// What was done to a mesh.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct OptimizedMesh {
+    /// What the file calls it.
+    pub name: String,
+    /// What was counted before and after.
+    pub change: CountChange,
+    /// The order that its face records were put in.
+    pub faces: FaceOrder,
+    /// Why the faces were not reordered, although they can be.
+    pub reason: Option<&'static str>,
+    /// Pushes of the schedule for a controllable cache.
+    pub scheduled: Option<u64>,
+    vertex_group: usize,
+}
+
+impl OptimizedMesh {
+    /// Whether faces were moved or turned.
+    #[must_use]
+    pub fn is_changed(&self) -> bool {
+        !self.faces.is_identity()
+    }
+}
+
+impl OptimizeReport {
+    fn new(
+        document: &Document,
+        options: &Options,
+        models: &[CacheModel],
+        improvement: Improvement,
+        counts: impl Iterator<Item = (Counts, Counts)>,
+    ) -> Self {
+        let entries = document.meshes();
+        let (before, after): (Vec<Counts>, Vec<Counts>) = counts.unzip();
+        let total = CountChange {
+            before: Counts::total(entries, &before, models),
+            after: Counts::total(entries, &after, models),
+        };
+
+        let changes = before.into_iter().zip(after);
+        let changes = changes.map(|(before, after)| CountChange { before, after });
+        let meshes = entries.iter().zip(improvement.faces).zip(changes);
+        let meshes = meshes.map(|((entry, faces), change)| OptimizedMesh {
+            name: entry.name.clone(),
+            change,
+            faces: faces.order,
+            reason: faces.reason,
+            scheduled: faces.scheduled,
+            vertex_group: entry.vertex_group,
+        });
+
+        let vertex_orders = improvement.vertices.into_iter();
+        let mut report = Self {
+            file: document.path().to_owned(),
+            output: None,
+            bytes_before: document.source_bytes(),
+            bytes_after: None,
+            seconds: None,
+            options: options.clone(),
+            meshes: meshes.collect(),
+            total,
+            is_stopped: improvement.is_stopped,
+            notes: document.notes().to_vec(),
+            vertex_orders: vertex_orders
+                .map(|(group, change)| (group, change.order))
+                .collect(),
+        };
+        if !report.is_changed() {
+            report.bytes_after = Some(report.bytes_before);
+        }
+        report
+    }
+
+    /// Whether any face or vertex was moved, or any corner turned.
+    #[must_use]
+    pub fn is_changed(&self) -> bool {
+        let faces = self.meshes.iter().any(OptimizedMesh::is_changed);
+        faces
+            || self
+                .vertex_orders
+                .values()
+                .any(|order| !order.is_identity())
+    }
+
+    /// The order that the vertices of mesh `mesh` were put in, together with those of its group;
+    /// `None` if they may not move.
+    ///
+    /// # Panics
+    /// If there is no such mesh.
+    #[must_use]
+    pub fn vertex_order(&self, mesh: usize) -> Option<&VertexOrder> {
+        self.vertex_orders.get(&self.meshes[mesh].vertex_group)
+    }
+
+    /// Pushes of the schedules of all meshes, if each has one.
+    #[must_use]
+    pub fn scheduled(&self) -> Option<u64> {
+        let total: Option<u64> = self.meshes.iter().map(|mesh| mesh.scheduled).sum();
+        total.filter(|_| !self.meshes.is_empty())
+    }
+
+    /// The target's caches in which all meshes together miss more than before, although they miss less
+    /// in all of its caches taken together.
+    pub fn worse_in(&self) -> impl Iterator<Item = CacheModel> {
+        let models = self.options.target.models();
+        let pairs = self
+            .total
+            .before
+            .misses
+            .iter()
+            .zip(&self.total.after.misses);
+        let worse = pairs.filter(|((_, before), (_, after))| after > before);
+        worse
+            .map(|((model, _), _)| *model)
+            .filter(|model| models.contains(model))
+    }
+
+    /// Adds where the document went and what it takes there.
+    pub fn set_output(&mut self, output: &Path, bytes: u64) {
+        self.output = Some(output.to_owned());
+        self.bytes_after = Some(bytes);
+    }
+}

@@ -1,0 +1,91 @@
+//! What was optimised, as JSON.
+
+use serde_json::{Value, json};
+
+use super::json;
+use super::optimize::{OptimizeReport, OptimizedMesh};
+use crate::cache::ratio;
+use crate::permutation::VertexOrder;
+
+impl OptimizeReport {
+    /// The report as one line of JSON.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let meshes = 0..self.meshes.len();
+        let output = self.output.as_ref().map(|path| path.display().to_string());
+        let mode = self.options.greedy.unwrap_or_default().mode;
+        let mut report = json::head("optimize");
+        let mut insert = |key: &str, value: Value| report.insert(key.into(), value);
+        insert("file", json!(self.file.display().to_string()));
+        insert("output", json!(output));
+        insert(
+            "bytes",
+            json!({"before": self.bytes_before, "after": self.bytes_after}),
+        );
+        insert("seconds", json!(self.seconds));
+        insert("cache", json!(self.options.target.to_string()));
+        insert("effort", json!(self.options.effort.to_string()));
+        insert("mode", json!(mode.to_string()));
+        insert("stopped", json!(self.is_stopped));
+        insert("meshes", meshes.map(|mesh| self.mesh_json(mesh)).collect());
+        insert("total", self.total_json_value());
+        let worse_in = self.worse_in().map(|model| json!(model.to_string()));
+        insert("worse_in", worse_in.collect());
+        insert("notes", json::notes(&self.notes));
+        Value::Object(report).to_string()
+    }
+
+    /// What was counted on all meshes together, before and after, as one line of JSON: the member
+    /// `total` of the report.
+    #[must_use]
+    pub fn total_to_json(&self) -> String {
+        self.total_json_value().to_string()
+    }
+
+    fn total_json_value(&self) -> Value {
+        Value::Object(json::change(&self.total.before, &self.total.after))
+    }
+
+    fn mesh_json(&self, number: usize) -> Value {
+        let mesh: &OptimizedMesh = &self.meshes[number];
+        let vertices_moved = self
+            .vertex_order(number)
+            .is_some_and(|order| !order.is_identity());
+        let mut object = json::change(&mesh.change.before, &mesh.change.after);
+        object.shift_insert(0, "name".into(), json!(mesh.name));
+        object.insert("changed".into(), json!(mesh.is_changed()));
+        object.insert("vertices_moved".into(), json!(vertices_moved));
+        if let Some(reason) = mesh.reason {
+            object.insert("reason".into(), json!(reason));
+        }
+        if let Some(pushes) = mesh.scheduled {
+            let per_face = ratio(pushes, mesh.change.after.faces);
+            object.insert("scheduled".into(), json!(per_face));
+        }
+        Value::Object(object)
+    }
+
+    /// Where every face record and vertex went, as one line of JSON: `out[i] = in[new_to_old[i]]`.
+    #[must_use]
+    pub fn permutations_to_json(&self) -> String {
+        let meshes = self.meshes.iter().enumerate().map(|(i, mesh)| {
+            let order = &mesh.faces;
+            let rotations: Vec<u8> = (0..order.len()).map(|i| order.rotation(i)).collect();
+            let vertices = self.vertex_order(i).filter(|order| !order.is_identity());
+            json!({
+                "name": mesh.name,
+                "face_new_to_old": order.new_to_old(),
+                "corner_rotations": rotations,
+                "vertex_new_to_old": vertices.map(VertexOrder::new_to_old),
+            })
+        });
+        let convention = "out[i] = in[new_to_old[i]]; new corner j = old corner (j + rotation) % 3";
+        json!({
+            "schema": json::SCHEMA,
+            "file": self.file.display().to_string(),
+            "convention": convention,
+            "meshes": meshes.collect::<Vec<_>>(),
+        })
+        .to_string()
+    }
+}
