@@ -9,6 +9,7 @@ import { writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 import { objects, PRIVATE } from "./objects.mjs";
+import { seeded, shuffled } from "./random.mjs";
 
 const FLOAT = 5126;
 const UNSIGNED_BYTE = 5121;
@@ -23,26 +24,6 @@ const SIDE = 20;
 /** A grey pixel as PNG. */
 const PIXEL =
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGNoAAAAggCBd81ytgAAAABJRU5ErkJggg==";
-
-/** Numbers from 0 to 1, the same in every run (mulberry32). */
-function seeded(seed) {
-    let state = seed;
-    return () => {
-        state = (state + 0x6d2b79f5) | 0;
-        let t = Math.imul(state ^ (state >>> 15), state | 1);
-        t = (t + Math.imul(t ^ (t >>> 7), t | 61)) ^ t;
-        return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
-    };
-}
-
-function shuffled(values, random) {
-    const all = [...values];
-    for (let i = all.length - 1; i > 0; i--) {
-        const j = Math.floor(random() * (i + 1));
-        [all[i], all[j]] = [all[j], all[i]];
-    }
-    return all;
-}
 
 /** A wavy grid, vertices and faces shuffled, with the edges of its border. */
 function grid(seed, offset) {
