@@ -28,6 +28,7 @@
 //! The library is pure Rust, forbids unsafe code, has no dependency by default and gives the same
 //! result on every platform.
 
+pub mod attribute;
 pub mod cache;
 mod error;
 mod faces;

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
 use super::entry::MeshEntry;
-use super::error::Problem;
+use super::error::{FileErrorKind, Place, Problem};
 use super::note::Note;
+use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
 
 /// What a format's reader hands to [`Document`](super::Document).
@@ -17,6 +18,17 @@ pub(super) type ReadResult = Result<(Box<dyn Content>, Vec<Note>), Problem>;
 pub(super) trait Content: Send + Sync + fmt::Debug {
     /// The meshes, kept up to date by `apply`.
     fn meshes(&self) -> &[MeshEntry];
+    /// What is stored with the vertices, corners and faces of a mesh; nothing is decoded for it.
+    fn attributes(&self, _mesh: usize) -> Vec<AttributeInfo> {
+        Vec::new()
+    }
+    /// The values of an attribute that [`attributes`](Self::attributes) lists, in the order in which
+    /// vertices and faces now are.
+    fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem> {
+        let _ = mesh;
+        let text = format!("this mesh has no attribute {}", info.semantic);
+        Err(FileErrorKind::unsupported(text).at(Place::File))
+    }
     /// Permutes records; the caller has checked the lengths.
     fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>);
     /// Every file to write when the document goes to `path`, the main one last.

@@ -10,6 +10,7 @@ use super::format::Format;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::{gltf, obj, off, ply, stl, vrml};
+use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
 use crate::error::MeshError;
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -131,6 +132,56 @@ impl Document {
     #[must_use]
     pub fn notes(&self) -> &[Note] {
         &self.notes
+    }
+
+    /// What is stored with the vertices, corners and faces of a mesh, morph targets included. Nothing is
+    /// decoded for it.
+    ///
+    /// # Panics
+    /// If there is no such mesh.
+    #[must_use]
+    pub fn attributes(&self, mesh: usize) -> Vec<AttributeInfo> {
+        assert!(mesh < self.meshes().len(), "there is no mesh {mesh}");
+        self.content.attributes(mesh)
+    }
+
+    /// The values of an attribute, in the order in which vertices and faces now are.
+    ///
+    /// # Errors
+    /// [`FileError`] if the mesh has no such attribute (take one of
+    /// [`attributes`](Self::attributes)), or its values are not numbers.
+    ///
+    /// # Panics
+    /// If there is no such mesh.
+    ///
+    /// # Complexity
+    /// Time and space O(values); of text, time O(bytes of the records).
+    pub fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, FileError> {
+        assert!(mesh < self.meshes().len(), "there is no mesh {mesh}");
+        let read = self.content.attribute(mesh, info);
+        read.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
+    }
+
+    /// The position of each vertex of a mesh; `None` if the file has none of three coordinates.
+    ///
+    /// # Errors
+    /// As [`attribute`](Self::attribute).
+    ///
+    /// # Panics
+    /// If there is no such mesh.
+    pub fn positions(&self, mesh: usize) -> Result<Option<Vec<[f32; 3]>>, FileError> {
+        let infos = self.attributes(mesh);
+        let is_position = |info: &&AttributeInfo| {
+            info.semantic == Semantic::Position
+                && info.morph_target.is_none()
+                && info.domain == Domain::Vertex
+                && info.components == 3
+        };
+        let Some(info) = infos.iter().find(is_position) else {
+            return Ok(None);
+        };
+        let numbers = self.attribute(mesh, info)?.to_f32();
+        Ok(Some(numbers.as_chunks().0.to_vec()))
     }
 
     /// Permutes the face records of a mesh, and its vertices too if an order for them is given.

@@ -7,7 +7,7 @@ use crate::sources::Sources;
 
 /// The rooms from the ground up, with the groups of rooms that each may name beside itself: only
 /// such as stand above it in this list, so that every arrow points one way.
-const ROOMS: [(&str, &[&[&str]]); 16] = [
+const ROOMS: [(&str, &[&[&str]]); 17] = [
     ("error", &[]),
     ("index", &[&["error"]]),
     ("limits", &[BOUNDS]),
@@ -17,6 +17,7 @@ const ROOMS: [(&str, &[&[&str]]); 16] = [
     ("geometry", &[GROUND]),
     ("faces", &[BOUNDS]),
     ("permutation", &[BOUNDS, &["random", "faces"]]),
+    ("attribute", &[]),
     ("mesh", &[GROUND, &["faces", "permutation"]]),
     ("topology", &[GROUND, &["faces"]]),
     ("partition", &[GROUND, &["faces", "topology"]]),
@@ -34,11 +35,11 @@ const ROOMS: [(&str, &[&[&str]]); 16] = [
 
 const BOUNDS: &[&str] = &["error", "index"];
 const GROUND: &[&str] = &["error", "index", "limits", "parallel", "random", "progress"];
-const VALUES: &[&str] = &["geometry", "faces", "permutation", "mesh"];
+const VALUES: &[&str] = &["geometry", "faces", "permutation", "attribute", "mesh"];
 const ALGORITHMS: &[&str] = &["topology", "partition", "cache"];
 
 /// What the program may name of the library: these rooms whole …
-const OPEN_TO_THE_PROGRAM: [&str; 4] = ["operations", "cache", "files", "geometry"];
+const OPEN_TO_THE_PROGRAM: [&str; 5] = ["operations", "cache", "files", "geometry", "attribute"];
 /// … the types at the root …
 const ROOT_TYPES: [&str; 10] = [
     "Budget",
