@@ -102,7 +102,7 @@ fn patterns_and_shards_part_the_work() {
     for (usage, says) in [
         (
             &["optimize", "in/*.ply", "-o", "x"][..],
-            "no mesh file is there",
+            "no mesh file found",
         ),
         (&["optimize", "in", "-o", "x.obj"], "FOLDER/"),
         (&["optimize", "in", "-o", "x", "--shard", "3/2"], "I/N"),
