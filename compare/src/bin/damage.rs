@@ -294,7 +294,7 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
         drop(ordered);
         document.apply(mesh, &faces, vertices.as_ref())?;
     }
-    document.to_bytes(&path)?;
+    document.to_main_bytes()?;
     Ok(())
 }
 

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::content::Content;
-use super::disk::{read_limited, write_files};
+use super::content::{Content, Destination, OutputFile};
+use super::disk::{is_same_folder, read_limited, write_files};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
@@ -211,6 +211,10 @@ impl Document {
     /// Writes the file, and the buffers beside it, each under a temporary name that is then
     /// renamed: what was there before is whole until the new file is.
     ///
+    /// In the folder that its buffers were read from, those that have not changed are left alone, and
+    /// under another name the others get new names, so that the source stays whole. Elsewhere all of
+    /// them are written, under their own names.
+    ///
     /// A name that ends in `.gz` is compressed.
     ///
     /// # Errors
@@ -226,7 +230,14 @@ impl Document {
             return Err(in_file(FileErrorKind::unsupported(feature).at(Place::File)));
         }
 
-        let files = self.content.files(path).map_err(in_file)?;
+        let is_beside = is_same_folder(folder_of(&self.path), folder_of(path));
+        let is_over = is_beside && self.path.file_name() == path.file_name();
+        let to = Destination {
+            path,
+            renames_changed: is_beside && !is_over,
+            includes_unchanged: !is_beside,
+        };
+        let files = self.content.files(&to).map_err(in_file)?;
         let bytes = write_files(&files, path).map_err(|(path, error)| {
             let problem = FileErrorKind::Io(error).at(Place::File);
             problem.in_file(&path, Some(self.format))
@@ -237,22 +248,64 @@ impl Document {
         })
     }
 
-    /// The bytes of the main file, as [`write`](Self::write) would write them to `path` without
-    /// compression.
+    /// Every file of the document with its bytes, the main one last.
+    /// Nothing is compressed, and no disk is touched.
+    ///
+    /// The paths are from the folder of `name`, and that of the main file is the last part of it. The
+    /// others have the paths by which they were read, and so the text of the main file stays. Only for
+    /// another name in the folder of [`path`](Self::path), as it is written, those that have changed
+    /// get new names: the files of the source stay whole if these are put beside them.
     ///
     /// # Errors
     /// [`FileError`] if the document cannot be stored under that name.
-    pub fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, FileError> {
-        let files = self.content.files(path);
-        let mut files = files.map_err(|problem| problem.in_file(path, Some(self.format)))?;
-        let mut bytes = Vec::new();
-        if let Some(main) = files.pop() {
-            let io = |error| FileErrorKind::Io(error).at(Place::File);
-            let written = (main.write)(&mut bytes).map_err(io);
-            written.map_err(|problem| problem.in_file(path, Some(self.format)))?;
-        }
-        Ok(bytes)
+    ///
+    /// # Complexity
+    /// Time and space O(bytes of all files).
+    pub fn to_bytes(&self, name: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, FileError> {
+        let in_file = |problem: Problem| problem.in_file(name, Some(self.format));
+        let main = name.file_name().map_or(name, Path::new);
+        let is_beside = folder_of(name) == folder_of(&self.path);
+        let to = Destination {
+            path: main,
+            renames_changed: is_beside && name.file_name() != self.path.file_name(),
+            includes_unchanged: true,
+        };
+
+        let files = self.content.files(&to).map_err(in_file)?;
+        let with_bytes = |file: OutputFile<'_>| {
+            let bytes = bytes_of(&file).map_err(in_file)?;
+            Ok((file.path, bytes))
+        };
+        files.into_iter().map(with_bytes).collect()
     }
+
+    /// The bytes of the main file alone, not compressed; the files beside it keep their names. For
+    /// a format without such files this is all there is.
+    ///
+    /// # Errors
+    /// As [`to_bytes`](Self::to_bytes).
+    pub fn to_main_bytes(&self) -> Result<Vec<u8>, FileError> {
+        let to = Destination {
+            path: &self.path,
+            renames_changed: false,
+            includes_unchanged: false,
+        };
+        let files = self.content.files(&to);
+        let bytes = files.and_then(|files| files.last().map_or(Ok(Vec::new()), bytes_of));
+        bytes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
+    }
+}
+
+/// The folder of a file, empty for this one.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+fn bytes_of(file: &OutputFile<'_>) -> Result<Vec<u8>, Problem> {
+    let mut bytes = Vec::new();
+    let written = (file.write)(&mut bytes);
+    written.map_err(|error| FileErrorKind::Io(error).at(Place::File))?;
+    Ok(bytes)
 }
 
 fn check_order(

@@ -194,7 +194,7 @@ fn only_the_text_of_a_data_uri_is_replaced() {
     let before = Reader::of_file(&source, None);
     let document = Document::open(&source, Limits::default()).unwrap();
     assert_eq!(
-        document.to_bytes(&source).unwrap(),
+        document.to_main_bytes().unwrap(),
         fs::read(&source).unwrap()
     );
     let output = folder.0.join("out.gltf");

@@ -56,7 +56,7 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::content::{Content, OutputFile, ReadResult};
+use super::content::{Content, Destination, OutputFile, ReadResult};
 use super::disk::{read_limited, read_start};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
@@ -76,7 +76,6 @@ use primitives::Primitives;
 
 /// A glTF file whose records can be moved.
 struct GltfFile {
-    source: PathBuf,
     container: Container,
     buffers: Buffers,
     uri_spans: BTreeMap<usize, Range<usize>>,
@@ -117,7 +116,6 @@ pub(super) fn read(
 
     let notes = notes::notes(&root, &primitives, &entries, &buffers);
     let file = GltfFile {
-        source: path.to_owned(),
         container,
         buffers,
         uri_spans,
@@ -230,7 +228,6 @@ impl GltfFile {
 impl fmt::Debug for GltfFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("GltfFile")
-            .field("source", &self.source)
             .field("bytes", &self.buffers.byte_count())
             .field("meshes", &self.entries.meshes.len())
             .finish_non_exhaustive()
@@ -263,14 +260,13 @@ impl Content for GltfFile {
         }
     }
 
-    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem> {
+    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem> {
         let output = Output {
-            source: &self.source,
             container: &self.container,
             buffers: &self.buffers,
             uri_spans: &self.uri_spans,
         };
-        output.files(path)
+        output.files(to)
     }
 
     fn size_beside(&self) -> u64 {
