@@ -9,6 +9,7 @@ use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::note::Note;
 use super::options::ReadOptions;
+use super::surroundings::{Surroundings, check_size};
 use super::{gltf, obj, off, ply, stl, vrml};
 use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
 use crate::error::MeshError;
@@ -38,6 +39,8 @@ pub struct Document {
     format: Format,
     content: Box<dyn Content>,
     notes: Vec<Note>,
+    /// The folder of the disk that the files beside it came from.
+    folder: Option<PathBuf>,
     /// The size of the main file, as it was read.
     main_size: u64,
 }
@@ -67,43 +70,70 @@ impl Document {
         let known = format.ok_or_else(|| in_file(FileErrorKind::UnknownFormat))?;
         let stored = read_limited(path, &options.limits).map_err(in_file)?;
 
-        let mut document = Self::from_bytes(stored.bytes, known, path, options)?;
+        let surroundings = Surroundings::Folder(folder_of(path));
+        let mut document = Self::from_bytes_in(stored.bytes, known, path, surroundings, options)?;
         document.main_size = stored.size;
         Ok(document)
     }
 
-    /// Reads a file that is in memory already; `path` names it in errors, and is where the external
-    /// buffers of a glTF are looked for.
+    /// Reads a file that is in memory already and needs no other beside it.
+    ///
+    /// The name is for errors, and for the files that [`to_bytes`](Self::to_bytes) gives; nothing is
+    /// looked for on a disk. The bytes are not compressed, whatever the name ends with.
     ///
     /// # Errors
-    /// As [`open`](Self::open).
+    /// As [`open`](Self::open); one of kind [`FileErrorKind::Io`] if a mesh has its data in another
+    /// file.
     pub fn from_bytes(
         bytes: Vec<u8>,
         format: Format,
-        path: &Path,
+        name: &Path,
+        options: impl Into<ReadOptions>,
+    ) -> Result<Self, FileError> {
+        Self::from_bytes_in(bytes, format, name, Surroundings::Nothing, options)
+    }
+
+    /// Reads a file that is in memory already, and the files beside it from these [`Surroundings`]; an
+    /// example is there.
+    ///
+    /// The name is as in [`from_bytes`](Self::from_bytes). With [`Surroundings::Memory`] no disk is
+    /// needed or touched, up to and with [`to_bytes`](Self::to_bytes): this is the way in a browser.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open); one of kind [`FileErrorKind::Io`] if a file is missing in which a mesh
+    /// has its data.
+    pub fn from_bytes_in(
+        bytes: Vec<u8>,
+        format: Format,
+        name: &Path,
+        surroundings: Surroundings<'_>,
         options: impl Into<ReadOptions>,
     ) -> Result<Self, FileError> {
         let options = &options.into();
-        let main_size = bytes.len() as u64;
+        let in_file = |problem: Problem| problem.in_file(name, Some(format));
+        let main_size = check_size(&bytes, &options.limits);
+        let main_size = main_size.map_err(|kind| in_file(kind.at(Place::File)))?;
+
         let read = match format {
-            Format::Gltf | Format::Glb => gltf::read(bytes, format, path, options),
+            Format::Gltf | Format::Glb => gltf::read(bytes, format, name, surroundings, options),
             Format::Obj => obj::read(bytes, options),
             Format::Ply => ply::read(bytes, options),
             Format::Off => off::read(bytes, options),
             Format::Stl => stl::read(bytes, options),
             Format::Vrml => vrml::read(bytes, options),
         };
-        let (content, notes) = read.map_err(|problem| problem.in_file(path, Some(format)))?;
+        let (content, notes) = read.map_err(in_file)?;
         Ok(Self {
-            path: path.to_owned(),
+            path: name.to_owned(),
             format,
             content,
             notes,
+            folder: surroundings.folder().map(Path::to_owned),
             main_size,
         })
     }
 
-    /// The path it was read from.
+    /// The path it was read from, or the name it was given.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -116,7 +146,7 @@ impl Document {
     }
 
     /// The size of the file and of the buffers beside it that were read, as they stand on the disk;
-    /// of a file that was in memory, the number of its bytes.
+    /// of files that were in memory, the number of their bytes.
     #[must_use]
     pub fn source_bytes(&self) -> u64 {
         self.main_size + self.content.size_beside()
@@ -230,7 +260,8 @@ impl Document {
             return Err(in_file(FileErrorKind::unsupported(feature).at(Place::File)));
         }
 
-        let is_beside = is_same_folder(folder_of(&self.path), folder_of(path));
+        let folder = self.folder.as_deref();
+        let is_beside = folder.is_some_and(|folder| is_same_folder(folder, folder_of(path)));
         let is_over = is_beside && self.path.file_name() == path.file_name();
         let to = Destination {
             path,
@@ -248,7 +279,7 @@ impl Document {
         })
     }
 
-    /// Every file of the document with its bytes, the main one last.
+    /// Every file of the document with its bytes, the main one last: what [`Surroundings::Memory`] takes.
     /// Nothing is compressed, and no disk is touched.
     ///
     /// The paths are from the folder of `name`, and that of the main file is the last part of it. The

@@ -10,7 +10,7 @@ use crate::random_orders;
 use crate::reader::Reader;
 
 /// Every `.gltf` and `.glb` below a folder, in a fixed order.
-fn scenes_below(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn scenes_below(folder: &Path) -> Vec<PathBuf> {
     let mut scenes = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {

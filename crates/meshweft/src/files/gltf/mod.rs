@@ -62,6 +62,7 @@ use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::options::ReadOptions;
+use super::surroundings::Surroundings;
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
 use accessors::Accessors;
@@ -82,14 +83,15 @@ struct GltfFile {
     entries: Entries,
 }
 
-/// Reads a `.gltf` or `.glb`, and the buffers beside it.
+/// Reads a `.gltf` or `.glb` of this name, and the buffers beside it.
 ///
 /// # Complexity
 /// Time O(n log n) and space O(n) in the bytes of the file and its buffers.
 pub(super) fn read(
     bytes: Vec<u8>,
     format: Format,
-    path: &Path,
+    name: &Path,
+    surroundings: Surroundings<'_>,
     options: &ReadOptions,
 ) -> ReadResult {
     let limits = &options.limits;
@@ -103,7 +105,8 @@ pub(super) fn read(
     let root = Object::new(json.root(), String::new())?;
     check_version(&root)?;
 
-    let buffers = Buffers::load(&root, binary, path, is_glb, options)?;
+    let mut buffers = Buffers::load(&root, binary, surroundings, &options.limits)?;
+    buffers.fix(name, is_glb, &options.keep_buffers);
     let uris = root.array("buffers")?.into_iter().enumerate();
     let span = |(number, buffer): (usize, Value<'_>)| Some((number, buffer.get("uri")?.span()));
     let uri_spans = uris.filter_map(span).collect();
