@@ -206,7 +206,7 @@ fn reordered(file: &Path) -> Vec<u8> {
         let vertices = movable.then(|| vertex_fetch(&entry.mesh));
         document.apply(mesh, &faces, vertices.as_ref()).unwrap();
     }
-    document.to_bytes(file).unwrap()
+    document.to_main_bytes().unwrap()
 }
 
 fn for_all_files(reader_name: &str, ending: &str, read: Reader) {

@@ -19,7 +19,7 @@ fn check(data: &[u8], format: Format, path: &Path) {
         return;
     };
     let unchanged = document
-        .to_bytes(path)
+        .to_main_bytes()
         .expect("what was read can be written");
     assert_eq!(unchanged, data);
     for mesh in 0..document.meshes().len() {
@@ -35,7 +35,7 @@ fn check(data: &[u8], format: Format, path: &Path) {
         assert_eq!(before, triangles(&document.meshes()[mesh]));
     }
     let bytes = document
-        .to_bytes(path)
+        .to_main_bytes()
         .expect("what was read can be written");
     let again = read(bytes).expect("what was written can be read");
     assert_eq!(document.meshes().len(), again.meshes().len());

@@ -17,7 +17,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use compare::counting::{Counting, with_peak};
-use meshweft::files::{Document, FileError, FileErrorKind, Format, Place};
+use meshweft::files::{Document, FileError, FileErrorKind, Format, Place, Surroundings};
 use meshweft::order::{KCacheReorder, vertex_fetch};
 use meshweft::{CacheModel, Limits, cache};
 
@@ -271,7 +271,8 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
     let Some(format) = Format::of_path(&path) else {
         return Ok(());
     };
-    let mut document = Document::from_bytes(bytes, format, &path, Limits::default())?;
+    let beside = Surroundings::Folder(path.parent().unwrap_or(Path::new("")));
+    let mut document = Document::from_bytes_in(bytes, format, &path, beside, Limits::default())?;
     let algorithm = KCacheReorder {
         cache: CacheModel::fifo(12),
         ..Default::default()
@@ -288,13 +289,11 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
             cache::misses(entry.mesh.faces(), CacheModel::fifo(12))
         };
         let _ = (misses(entry), misses(&ordered));
-        let vertices = entry
-            .vertices_movable
-            .then(|| vertex_fetch(&ordered.mesh));
+        let vertices = entry.vertices_movable.then(|| vertex_fetch(&ordered.mesh));
         drop(ordered);
         document.apply(mesh, &faces, vertices.as_ref())?;
     }
-    document.to_bytes(&path)?;
+    document.to_main_bytes()?;
     Ok(())
 }
 

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use meshweft::Limits;
 use meshweft::files::{
-    Document, FileError, FileErrorKind, Format, MeshEntry, Note, Place, ReadOptions, Written,
-    is_gzip,
+    Document, FileError, FileErrorKind, Format, MeshEntry, Note, Place, ReadOptions, Surroundings,
+    Written, is_gzip,
 };
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n";
@@ -38,7 +38,7 @@ fn values_cross_threads_and_can_be_debugged() {
     is::<Document>();
     is::<Written>();
     is::<MeshEntry>();
-    is::<ReadOptions>();
+    is::<(ReadOptions, Surroundings<'static>)>();
     is::<(Format, Note, Place)>();
     is::<(FileError, FileErrorKind)>();
 }

@@ -89,7 +89,7 @@ fn error(bytes: &[u8], format: Format) -> String {
 }
 
 fn written(document: &Document) -> Vec<u8> {
-    document.to_bytes(name_of(document.format())).unwrap()
+    document.to_main_bytes().unwrap()
 }
 
 /// Asserts that `new` is `old` with its records in these orders, and nothing else.

@@ -29,7 +29,7 @@ fn open(text: &[u8]) -> Document {
 }
 
 fn written(document: &Document) -> String {
-    String::from_utf8(document.to_bytes(Path::new(NAME)).unwrap()).unwrap()
+    String::from_utf8(document.to_main_bytes().unwrap()).unwrap()
 }
 
 fn notes(text: &str) -> Vec<String> {

@@ -45,7 +45,7 @@ fn document(text: &str) -> Document {
 }
 
 fn bytes(document: &Document) -> Vec<u8> {
-    document.to_bytes(Path::new("grids.obj")).unwrap()
+    document.to_main_bytes().unwrap()
 }
 
 /// The document after these options, and its report.

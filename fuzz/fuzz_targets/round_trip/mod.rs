@@ -17,7 +17,7 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
     let Ok(mut document) = read(data.to_vec()) else {
         return;
     };
-    let unchanged = document.to_bytes(path).expect("a name of the same format");
+    let unchanged = document.to_main_bytes().expect("a name of the same format");
     assert_eq!(unchanged, data, "a file is written as it was read");
     let mut before = Vec::new();
     for mesh in 0..document.meshes().len() {
@@ -31,7 +31,7 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
             .apply(mesh, &faces, vertices.as_ref())
             .expect("an order that the entry allows");
     }
-    let output = document.to_bytes(path).expect("a name of the same format");
+    let output = document.to_main_bytes().expect("a name of the same format");
     let again = read(output).expect("what is written can be read");
     assert_eq!(document.meshes().len(), again.meshes().len());
     for ((before, entry), now) in before.iter().zip(again.meshes()).zip(document.meshes()) {

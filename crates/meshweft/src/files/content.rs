@@ -31,12 +31,23 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     }
     /// Permutes records; the caller has checked the lengths.
     fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>);
-    /// Every file to write when the document goes to `path`, the main one last.
-    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem>;
-    /// The size on the disk of all files beside the main one that were read.
+    /// Every file to write when the document goes there, the main one last.
+    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem>;
+    /// The size of all files beside the main one that were read.
     fn size_beside(&self) -> u64 {
         0
     }
+}
+
+/// Where the files of a document go, and which of them.
+pub(super) struct Destination<'a> {
+    /// The path of the main file. The others go beside it.
+    pub(super) path: &'a Path,
+    /// Whether a file beside the main one gets a new name if it has changed: the old one must stay
+    /// where the new one goes.
+    pub(super) renames_changed: bool,
+    /// Whether files beside the main one are written that have not changed.
+    pub(super) includes_unchanged: bool,
 }
 
 /// A file to be written, its bytes made as they are written.

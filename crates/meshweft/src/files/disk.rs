@@ -23,11 +23,11 @@ pub fn is_gzip(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
 }
 
-/// What a file holds.
+/// What a file holds, on the disk or in memory.
 pub(super) struct Stored {
     /// Its bytes, decompressed.
     pub(super) bytes: Vec<u8>,
-    /// Its size on the disk.
+    /// Its size where it stands.
     pub(super) size: u64,
 }
 
@@ -107,11 +107,11 @@ const TEMPORARY: &str = ".meshweft-tmp";
 ///
 /// Nothing is reported: what cannot be removed does no harm.
 pub fn remove_abandoned(folder: &Path) {
-    let folder = match folder.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => folder,
-    };
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+    for entry in fs::read_dir(spelled_out(folder))
+        .into_iter()
+        .flatten()
+        .flatten()
+    {
         let name = entry.file_name();
         let name = name.as_encoded_bytes();
         if !name.starts_with(b".") || !name.ends_with(TEMPORARY.as_bytes()) {
@@ -123,6 +123,23 @@ pub fn remove_abandoned(folder: &Path) {
         if is_abandoned {
             let _ = fs::remove_file(path);
         }
+    }
+}
+
+/// Whether these are one folder, through links too where they are there.
+pub(super) fn is_same_folder(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| {
+        let path = spelled_out(path);
+        path.canonicalize().unwrap_or_else(|_| path.to_owned())
+    };
+    folder(a) == folder(b)
+}
+
+/// A folder by a name that is not empty.
+fn spelled_out(folder: &Path) -> &Path {
+    match folder.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => folder,
     }
 }
 

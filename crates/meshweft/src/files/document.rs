@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use super::content::Content;
-use super::disk::{read_limited, write_files};
+use super::content::{Content, Destination, OutputFile};
+use super::disk::{is_same_folder, read_limited, write_files};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::note::Note;
 use super::options::ReadOptions;
+use super::surroundings::{Surroundings, check_size};
 use super::{gltf, obj, off, ply, stl, vrml};
 use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
 use crate::error::MeshError;
@@ -38,6 +39,8 @@ pub struct Document {
     format: Format,
     content: Box<dyn Content>,
     notes: Vec<Note>,
+    /// The folder of the disk that the files beside it came from.
+    folder: Option<PathBuf>,
     /// The size of the main file, as it was read.
     main_size: u64,
 }
@@ -67,43 +70,70 @@ impl Document {
         let known = format.ok_or_else(|| in_file(FileErrorKind::UnknownFormat))?;
         let stored = read_limited(path, &options.limits).map_err(in_file)?;
 
-        let mut document = Self::from_bytes(stored.bytes, known, path, options)?;
+        let surroundings = Surroundings::Folder(folder_of(path));
+        let mut document = Self::from_bytes_in(stored.bytes, known, path, surroundings, options)?;
         document.main_size = stored.size;
         Ok(document)
     }
 
-    /// Reads a file that is in memory already; `path` names it in errors, and is where the external
-    /// buffers of a glTF are looked for.
+    /// Reads a file that is in memory already and needs no other beside it.
+    ///
+    /// The name is for errors, and for the files that [`to_bytes`](Self::to_bytes) gives; nothing is
+    /// looked for on a disk. The bytes are not compressed, whatever the name ends with.
     ///
     /// # Errors
-    /// As [`open`](Self::open).
+    /// As [`open`](Self::open); one of kind [`FileErrorKind::Io`] if a mesh has its data in another
+    /// file.
     pub fn from_bytes(
         bytes: Vec<u8>,
         format: Format,
-        path: &Path,
+        name: &Path,
+        options: impl Into<ReadOptions>,
+    ) -> Result<Self, FileError> {
+        Self::from_bytes_in(bytes, format, name, Surroundings::Nothing, options)
+    }
+
+    /// Reads a file that is in memory already, and the files beside it from these [`Surroundings`]; an
+    /// example is there.
+    ///
+    /// The name is as in [`from_bytes`](Self::from_bytes). With [`Surroundings::Memory`] no disk is
+    /// needed or touched, up to and with [`to_bytes`](Self::to_bytes): this is the way in a browser.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open); one of kind [`FileErrorKind::Io`] if a file is missing in which a mesh
+    /// has its data.
+    pub fn from_bytes_in(
+        bytes: Vec<u8>,
+        format: Format,
+        name: &Path,
+        surroundings: Surroundings<'_>,
         options: impl Into<ReadOptions>,
     ) -> Result<Self, FileError> {
         let options = &options.into();
-        let main_size = bytes.len() as u64;
+        let in_file = |problem: Problem| problem.in_file(name, Some(format));
+        let main_size = check_size(&bytes, &options.limits);
+        let main_size = main_size.map_err(|kind| in_file(kind.at(Place::File)))?;
+
         let read = match format {
-            Format::Gltf | Format::Glb => gltf::read(bytes, format, path, options),
+            Format::Gltf | Format::Glb => gltf::read(bytes, format, name, surroundings, options),
             Format::Obj => obj::read(bytes, options),
             Format::Ply => ply::read(bytes, options),
             Format::Off => off::read(bytes, options),
             Format::Stl => stl::read(bytes, options),
             Format::Vrml => vrml::read(bytes, options),
         };
-        let (content, notes) = read.map_err(|problem| problem.in_file(path, Some(format)))?;
+        let (content, notes) = read.map_err(in_file)?;
         Ok(Self {
-            path: path.to_owned(),
+            path: name.to_owned(),
             format,
             content,
             notes,
+            folder: surroundings.folder().map(Path::to_owned),
             main_size,
         })
     }
 
-    /// The path it was read from.
+    /// The path it was read from, or the name it was given.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -116,7 +146,7 @@ impl Document {
     }
 
     /// The size of the file and of the buffers beside it that were read, as they stand on the disk;
-    /// of a file that was in memory, the number of its bytes.
+    /// of files that were in memory, the number of their bytes.
     #[must_use]
     pub fn source_bytes(&self) -> u64 {
         self.main_size + self.content.size_beside()
@@ -211,6 +241,10 @@ impl Document {
     /// Writes the file, and the buffers beside it, each under a temporary name that is then
     /// renamed: what was there before is whole until the new file is.
     ///
+    /// In the folder that its buffers were read from, those that have not changed are left alone, and
+    /// under another name the others get new names, so that the source stays whole. Elsewhere all of
+    /// them are written, under their own names.
+    ///
     /// A name that ends in `.gz` is compressed.
     ///
     /// # Errors
@@ -226,7 +260,15 @@ impl Document {
             return Err(in_file(FileErrorKind::unsupported(feature).at(Place::File)));
         }
 
-        let files = self.content.files(path).map_err(in_file)?;
+        let folder = self.folder.as_deref();
+        let is_beside = folder.is_some_and(|folder| is_same_folder(folder, folder_of(path)));
+        let is_over = is_beside && self.path.file_name() == path.file_name();
+        let to = Destination {
+            path,
+            renames_changed: is_beside && !is_over,
+            includes_unchanged: !is_beside,
+        };
+        let files = self.content.files(&to).map_err(in_file)?;
         let bytes = write_files(&files, path).map_err(|(path, error)| {
             let problem = FileErrorKind::Io(error).at(Place::File);
             problem.in_file(&path, Some(self.format))
@@ -237,22 +279,64 @@ impl Document {
         })
     }
 
-    /// The bytes of the main file, as [`write`](Self::write) would write them to `path` without
-    /// compression.
+    /// Every file of the document with its bytes, the main one last: what [`Surroundings::Memory`] takes.
+    /// Nothing is compressed, and no disk is touched.
+    ///
+    /// The paths are from the folder of `name`, and that of the main file is the last part of it. The
+    /// others have the paths by which they were read, and so the text of the main file stays. Only for
+    /// another name in the folder of [`path`](Self::path), as it is written, those that have changed
+    /// get new names: the files of the source stay whole if these are put beside them.
     ///
     /// # Errors
     /// [`FileError`] if the document cannot be stored under that name.
-    pub fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, FileError> {
-        let files = self.content.files(path);
-        let mut files = files.map_err(|problem| problem.in_file(path, Some(self.format)))?;
-        let mut bytes = Vec::new();
-        if let Some(main) = files.pop() {
-            let io = |error| FileErrorKind::Io(error).at(Place::File);
-            let written = (main.write)(&mut bytes).map_err(io);
-            written.map_err(|problem| problem.in_file(path, Some(self.format)))?;
-        }
-        Ok(bytes)
+    ///
+    /// # Complexity
+    /// Time and space O(bytes of all files).
+    pub fn to_bytes(&self, name: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, FileError> {
+        let in_file = |problem: Problem| problem.in_file(name, Some(self.format));
+        let main = name.file_name().map_or(name, Path::new);
+        let is_beside = folder_of(name) == folder_of(&self.path);
+        let to = Destination {
+            path: main,
+            renames_changed: is_beside && name.file_name() != self.path.file_name(),
+            includes_unchanged: true,
+        };
+
+        let files = self.content.files(&to).map_err(in_file)?;
+        let with_bytes = |file: OutputFile<'_>| {
+            let bytes = bytes_of(&file).map_err(in_file)?;
+            Ok((file.path, bytes))
+        };
+        files.into_iter().map(with_bytes).collect()
     }
+
+    /// The bytes of the main file alone, not compressed; the files beside it keep their names. For
+    /// a format without such files this is all there is.
+    ///
+    /// # Errors
+    /// As [`to_bytes`](Self::to_bytes).
+    pub fn to_main_bytes(&self) -> Result<Vec<u8>, FileError> {
+        let to = Destination {
+            path: &self.path,
+            renames_changed: false,
+            includes_unchanged: false,
+        };
+        let files = self.content.files(&to);
+        let bytes = files.and_then(|files| files.last().map_or(Ok(Vec::new()), bytes_of));
+        bytes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
+    }
+}
+
+/// The folder of a file, empty for this one.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+fn bytes_of(file: &OutputFile<'_>) -> Result<Vec<u8>, Problem> {
+    let mut bytes = Vec::new();
+    let written = (file.write)(&mut bytes);
+    written.map_err(|error| FileErrorKind::Io(error).at(Place::File))?;
+    Ok(bytes)
 }
 
 fn check_order(

@@ -9,7 +9,7 @@
 //! | how a format plugs in | `content` |
 //! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `record_file` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
-//! | where bytes come from and go to | `disk` |
+//! | where bytes come from and go to | `disk`, `surroundings` |
 
 mod content;
 mod disk;
@@ -30,6 +30,7 @@ mod rewrite;
 mod slots;
 mod splice;
 mod stl;
+mod surroundings;
 mod text;
 mod vrml;
 
@@ -41,3 +42,4 @@ pub use format::Format;
 pub use gltf::external_buffers;
 pub use note::Note;
 pub use options::ReadOptions;
+pub use surroundings::Surroundings;

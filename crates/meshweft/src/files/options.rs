@@ -24,7 +24,8 @@ pub struct ReadOptions {
     /// Names of glTF extensions, PLY elements and OBJ statements that do not depend on any order,
     /// by the word of the caller.
     pub assume_order_safe: Vec<String>,
-    /// External buffers whose bytes must stay, because other files read them too.
+    /// External buffers whose bytes must stay, because other files read them too: paths beside that of
+    /// the document, as [`external_buffers`](super::external_buffers) gives them.
     pub keep_buffers: Vec<PathBuf>,
     /// Let faces of an OBJ cross `g` and `o` lines, so that groups may lose and gain faces.
     /// Materials and smoothing groups are never crossed.

@@ -2,10 +2,9 @@
 //!
 //! The source is never changed: orders add up, and the output is spliced when it is asked for.
 
-use std::path::Path;
 use std::{fmt, io};
 
-use super::content::{Content, OutputFile};
+use super::content::{Content, Destination, OutputFile};
 use super::entry::MeshEntry;
 use super::error::Problem;
 use super::orders::{RecordOrders, record_in};
@@ -112,9 +111,9 @@ impl<N: Notation> Content for RecordFile<N> {
         }
     }
 
-    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem> {
+    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem> {
         Ok(vec![OutputFile {
-            path: path.to_owned(),
+            path: to.path.to_owned(),
             write: Box::new(|sink| self.write(sink)),
         }])
     }

@@ -10,7 +10,7 @@ use crate::random_orders;
 use crate::reader::Reader;
 
 /// Every `.gltf` and `.glb` below a folder, in a fixed order.
-fn scenes_below(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn scenes_below(folder: &Path) -> Vec<PathBuf> {
     let mut scenes = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -35,7 +35,7 @@ fn real_scenes_keep_their_triangles() {
     let mut mesh_count = 0;
     for path in &scenes {
         let mut document = Document::open(path, Limits::default()).unwrap();
-        let before = document.to_bytes(path).unwrap();
+        let before = document.to_main_bytes().unwrap();
         assert_eq!(before, std::fs::read(path).unwrap(), "{}", path.display());
         let triangles = Reader::of_file(path, None).triangles();
         mesh_count += document.meshes().len();
@@ -76,7 +76,7 @@ fn broken_scenes_give_an_error_or_a_result() {
         match Document::open(path, Limits::default()) {
             Ok(mut document) => {
                 random_orders(&mut document, 3);
-                document.to_bytes(path).unwrap();
+                document.to_main_bytes().unwrap();
                 println!(
                     "{name}: {} meshes, {:?}",
                     document.meshes().len(),

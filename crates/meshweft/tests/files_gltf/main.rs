@@ -11,6 +11,7 @@ mod errors;
 mod moves;
 mod output;
 mod reader;
+mod surroundings;
 
 use meshweft::files::Document;
 use meshweft::{FaceOrder, Permutation, VertexOrder};

@@ -20,7 +20,7 @@ fn reader(bytes: &[u8]) -> Reader {
 }
 
 fn written(document: &Document) -> Vec<u8> {
-    document.to_bytes(Path::new("scene.glb")).unwrap()
+    document.to_main_bytes().unwrap()
 }
 
 /// Every note as its pointer and text.

@@ -12,10 +12,10 @@ use crate::random_orders;
 use crate::reader::Reader;
 
 /// An empty folder that goes when it is dropped.
-struct Folder(PathBuf);
+pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let name = format!("meshweft-{name}-{}", std::process::id());
         let path = std::env::temp_dir().join(name);
         let _ = fs::remove_dir_all(&path);
@@ -194,7 +194,7 @@ fn only_the_text_of_a_data_uri_is_replaced() {
     let before = Reader::of_file(&source, None);
     let document = Document::open(&source, Limits::default()).unwrap();
     assert_eq!(
-        document.to_bytes(&source).unwrap(),
+        document.to_main_bytes().unwrap(),
         fs::read(&source).unwrap()
     );
     let output = folder.0.join("out.gltf");

@@ -5,8 +5,8 @@ use std::path::Path;
 use meshweft::Limits;
 use meshweft::files::{Document, FileErrorKind, Format};
 
+use super::check_times;
 use super::data::folder;
-use super::{check_times, name_of};
 
 /// The rows of the data's index whose file is of a format that is tested here.
 fn index(folder: &Path) -> Vec<(String, Format, Vec<String>)> {
@@ -52,7 +52,7 @@ fn real_and_malformed_files_are_read_as_the_index_says() {
                 } else {
                     assert_eq!(columns[1], "0", "{file}");
                 }
-                let bytes = document.to_bytes(name_of(*format)).unwrap();
+                let bytes = document.to_main_bytes().unwrap();
                 check_times(&bytes, *format, 11, 1);
                 counts[0] += 1;
             }

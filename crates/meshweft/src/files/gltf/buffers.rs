@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::base64;
 use super::object::{Object, malformed};
-use crate::files::disk::{Stored, read_limited};
+use crate::files::disk::Stored;
 use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::files::options::ReadOptions;
+use crate::files::surroundings::Surroundings;
 use crate::limits::Limits;
 
 /// Bytes that one or more buffers of the JSON stand for.
@@ -60,7 +60,7 @@ pub(super) struct Buffers {
     missing: BTreeMap<usize, Missing>,
     /// How many buffers there are.
     count: usize,
-    /// The size on the disk of all files that were read.
+    /// The size of all files that were read, where they stand.
     pub(super) read_size: u64,
 }
 
@@ -69,11 +69,9 @@ impl Buffers {
     pub(super) fn load(
         root: &Object,
         binary: Option<Vec<u8>>,
-        path: &Path,
-        is_glb: bool,
-        options: &ReadOptions,
+        surroundings: Surroundings<'_>,
+        limits: &Limits,
     ) -> Result<Self, Problem> {
-        let limits = &options.limits;
         let mut buffers = Self::default();
         let mut external = BTreeMap::new();
         let mut binary = binary;
@@ -100,7 +98,7 @@ impl Buffers {
                     external
                         .entry(relative.clone())
                         .or_insert_with(|| {
-                            let stored = read_beside(path, &relative, limits)?;
+                            let stored = read_beside(surroundings, &relative, limits)?;
                             buffers.read_size += stored.size;
                             Ok(buffers.store(Source::External(relative), stored.bytes))
                         })
@@ -117,26 +115,27 @@ impl Buffers {
             }
         }
 
-        for storage in &mut buffers.storages {
+        // A binary chunk that no buffer names is kept as it is.
+        if let Some(bytes) = binary {
+            buffers.store(Source::Binary, bytes);
+        }
+        Ok(buffers)
+    }
+
+    /// Says which of them may not change in a file of this name, where the buffers at the paths `keep`
+    /// must stay.
+    pub(super) fn fix(&mut self, name: &Path, is_glb: bool, keep: &[PathBuf]) {
+        for storage in &mut self.storages {
             if is_glb && storage.source != Source::Binary {
                 storage.fixed = Some("its data is not in the binary chunk of the GLB");
             }
             let Source::External(relative) = &storage.source else {
                 continue;
             };
-            if options
-                .keep_buffers
-                .contains(&path.with_file_name(relative))
-            {
+            if keep.contains(&name.with_file_name(relative)) {
                 storage.fixed = Some("other files read its buffer too: give this one its own");
             }
         }
-
-        // A binary chunk that no buffer names is kept as it is.
-        if let Some(bytes) = binary {
-            buffers.store(Source::Binary, bytes);
-        }
-        Ok(buffers)
     }
 
     fn store(&mut self, source: Source, bytes: Vec<u8>) -> usize {
@@ -233,9 +232,13 @@ pub(super) fn external_paths(root: &Object, path: &Path) -> Result<Vec<PathBuf>,
     Ok(paths)
 }
 
-fn read_beside(path: &Path, relative: &Path, limits: &Limits) -> Result<Stored, Missing> {
-    let beside = path.with_file_name(relative);
-    read_limited(&beside, limits).map_err(|kind| match kind {
+fn read_beside(
+    surroundings: Surroundings<'_>,
+    relative: &Path,
+    limits: &Limits,
+) -> Result<Stored, Missing> {
+    let read = surroundings.read(relative, limits);
+    read.map_err(|kind| match kind {
         FileErrorKind::Io(error) => Missing::Unreadable(
             error.kind(),
             format!(

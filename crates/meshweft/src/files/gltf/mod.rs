@@ -56,12 +56,13 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::content::{Content, OutputFile, ReadResult};
+use super::content::{Content, Destination, OutputFile, ReadResult};
 use super::disk::{read_limited, read_start};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::options::ReadOptions;
+use super::surroundings::Surroundings;
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
 use accessors::Accessors;
@@ -76,21 +77,21 @@ use primitives::Primitives;
 
 /// A glTF file whose records can be moved.
 struct GltfFile {
-    source: PathBuf,
     container: Container,
     buffers: Buffers,
     uri_spans: BTreeMap<usize, Range<usize>>,
     entries: Entries,
 }
 
-/// Reads a `.gltf` or `.glb`, and the buffers beside it.
+/// Reads a `.gltf` or `.glb` of this name, and the buffers beside it.
 ///
 /// # Complexity
 /// Time O(n log n) and space O(n) in the bytes of the file and its buffers.
 pub(super) fn read(
     bytes: Vec<u8>,
     format: Format,
-    path: &Path,
+    name: &Path,
+    surroundings: Surroundings<'_>,
     options: &ReadOptions,
 ) -> ReadResult {
     let limits = &options.limits;
@@ -104,7 +105,8 @@ pub(super) fn read(
     let root = Object::new(json.root(), String::new())?;
     check_version(&root)?;
 
-    let buffers = Buffers::load(&root, binary, path, is_glb, options)?;
+    let mut buffers = Buffers::load(&root, binary, surroundings, &options.limits)?;
+    buffers.fix(name, is_glb, &options.keep_buffers);
     let uris = root.array("buffers")?.into_iter().enumerate();
     let span = |(number, buffer): (usize, Value<'_>)| Some((number, buffer.get("uri")?.span()));
     let uri_spans = uris.filter_map(span).collect();
@@ -117,7 +119,6 @@ pub(super) fn read(
 
     let notes = notes::notes(&root, &primitives, &entries, &buffers);
     let file = GltfFile {
-        source: path.to_owned(),
         container,
         buffers,
         uri_spans,
@@ -230,7 +231,6 @@ impl GltfFile {
 impl fmt::Debug for GltfFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("GltfFile")
-            .field("source", &self.source)
             .field("bytes", &self.buffers.byte_count())
             .field("meshes", &self.entries.meshes.len())
             .finish_non_exhaustive()
@@ -263,14 +263,13 @@ impl Content for GltfFile {
         }
     }
 
-    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem> {
+    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem> {
         let output = Output {
-            source: &self.source,
             container: &self.container,
             buffers: &self.buffers,
             uri_spans: &self.uri_spans,
         };
-        output.files(path)
+        output.files(to)
     }
 
     fn size_beside(&self) -> u64 {

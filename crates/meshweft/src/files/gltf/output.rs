@@ -8,13 +8,11 @@ use std::path::{Path, PathBuf};
 use super::base64;
 use super::buffers::{Buffers, Source, Storage, percent_encoded};
 use super::container::Container;
-use crate::files::content::OutputFile;
+use crate::files::content::{Destination, OutputFile};
 use crate::files::error::{FileErrorKind, Place, Problem};
 
 /// What is needed to write the file again.
 pub(super) struct Output<'a> {
-    /// The path that it was read from.
-    pub(super) source: &'a Path,
     pub(super) container: &'a Container,
     pub(super) buffers: &'a Buffers,
     /// Where each buffer's `uri` stands in the JSON text.
@@ -22,10 +20,9 @@ pub(super) struct Output<'a> {
 }
 
 impl<'a> Output<'a> {
-    /// The files to write when the document goes to `path`, the main one last.
-    pub(super) fn files(&self, path: &Path) -> Result<Vec<OutputFile<'a>>, Problem> {
-        let is_same_folder = is_same_folder(self.source, path);
-        let is_in_place = is_same_folder && self.source.file_name() == path.file_name();
+    /// The files to write when the document goes there, the main one last.
+    pub(super) fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'a>>, Problem> {
+        let path = to.path;
         let mut files = Vec::new();
         let mut new_uris: Vec<(usize, String)> = Vec::new();
 
@@ -39,11 +36,11 @@ impl<'a> Output<'a> {
                     }
                 }
                 Source::External(relative) => {
-                    if is_same_folder && !storage.is_changed {
+                    if !storage.is_changed && !to.includes_unchanged {
                         continue;
                     }
                     let mut target = path.with_file_name(relative);
-                    if is_same_folder && !is_in_place {
+                    if storage.is_changed && to.renames_changed {
                         // The source still needs its own buffer.
                         let name = self.new_name(path, number)?;
                         let uri = percent_encoded(&name);
@@ -141,17 +138,4 @@ impl<'a> Output<'a> {
         parts.push(tail.as_slice().into());
         parts
     }
-}
-
-/// Whether two files stand in one folder, through links too where the folders are there.
-fn is_same_folder(a: &Path, b: &Path) -> bool {
-    let folder = |path: &Path| {
-        let parent = path.parent().unwrap_or(Path::new(""));
-        let parent = match parent.as_os_str().is_empty() {
-            true => Path::new("."),
-            false => parent,
-        };
-        parent.canonicalize().unwrap_or_else(|_| parent.to_owned())
-    };
-    folder(a) == folder(b)
 }

@@ -21,10 +21,9 @@ mod scene;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
 use std::{fmt, io};
 
-use super::content::{Content, OutputFile, ReadResult};
+use super::content::{Content, Destination, OutputFile, ReadResult};
 use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
 use super::note::Note;
@@ -286,9 +285,9 @@ impl Content for VrmlFile {
         }
     }
 
-    fn files(&self, path: &Path) -> Result<Vec<OutputFile<'_>>, Problem> {
+    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem> {
         Ok(vec![OutputFile {
-            path: path.to_owned(),
+            path: to.path.to_owned(),
             write: Box::new(|sink| self.write(sink)),
         }])
     }
