@@ -50,7 +50,7 @@ impl Attributes {
         accessors: &Accessors,
         primitives: &[PrimitiveNumber],
     ) -> Self {
-        let mut building = Building {
+        let mut collected = Collected {
             attributes: Self {
                 named: Vec::new(),
                 starts: vec![0],
@@ -66,11 +66,11 @@ impl Attributes {
             for (primitive, value) in (0_u32..).zip(elements_of(value.get("primitives"))) {
                 let number = PrimitiveNumber { mesh, primitive };
                 if wanted.next_if_eq(&&number).is_some() {
-                    building.add_mesh(value, accessors);
+                    collected.add_mesh(value, accessors);
                 }
             }
         }
-        building.attributes
+        collected.attributes
     }
 
     /// Those of a mesh, in the order of the file; `json` is the text that they were read from.
@@ -128,13 +128,13 @@ impl Attributes {
 }
 
 /// [`Attributes`] while they are collected.
-struct Building {
+struct Collected {
     attributes: Attributes,
     /// The number of the elements of each accessor that was looked at, if it can be read.
     number_of: BTreeMap<usize, Option<u32>>,
 }
 
-impl Building {
+impl Collected {
     /// Adds a mesh with what its primitive names.
     fn add_mesh(&mut self, primitive: Value<'_>, accessors: &Accessors) {
         self.add_set(primitive.get("attributes"), None, accessors);
