@@ -10,7 +10,7 @@ use crate::builder::{Builder, F32, U8, U16, U32, faces};
 use crate::reader::Reader;
 use crate::{Random, random_orders};
 
-fn open(bytes: &[u8]) -> Document {
+pub(crate) fn open(bytes: &[u8]) -> Document {
     let path = Path::new("scene.glb");
     Document::from_bytes(bytes.to_vec(), Format::Glb, path, Limits::default()).unwrap()
 }
