@@ -28,6 +28,11 @@ pub(crate) fn scenes_below(folder: &Path) -> Vec<PathBuf> {
     scenes
 }
 
+/// The real scenes; none where there is no data.
+pub(crate) fn scenes() -> Vec<PathBuf> {
+    folder().map_or(Vec::new(), |folder| scenes_below(&folder.join("gltf")))
+}
+
 #[test]
 fn real_scenes_keep_their_triangles() {
     let Some(folder) = folder() else { return };

@@ -10,7 +10,7 @@ use crate::builder::{Builder, F32, U8, U16, U32, faces};
 use crate::reader::Reader;
 use crate::{Random, random_orders};
 
-fn open(bytes: &[u8]) -> Document {
+pub(crate) fn open(bytes: &[u8]) -> Document {
     let path = Path::new("scene.glb");
     Document::from_bytes(bytes.to_vec(), Format::Glb, path, Limits::default()).unwrap()
 }
@@ -117,7 +117,7 @@ fn everything_that_hangs_on_a_vertex_moves_with_it() {
         (entry.mesh.vertex_count(), entry.mesh.face_count()),
         (50, 80)
     );
-    assert_eq!(entry.mesh.positions().len(), 50);
+    assert_eq!(document.positions(0).unwrap().unwrap().len(), 50);
     assert!(entry.vertices_movable && entry.corners_turnable);
     assert_eq!(notes(&document), [""; 0]);
     check(&bytes);
@@ -149,14 +149,14 @@ fn faces_without_indices_move_their_vertices() {
     assert_eq!(entry.name, "mesh 0, primitive 0");
     assert!(!entry.vertices_movable);
     assert_eq!(entry.mesh.faces()[1], [3, 4, 5]);
-    let positions = entry.mesh.positions().to_vec();
+    let positions = document.positions(0).unwrap().unwrap();
     let order = Random(1).face_order(10);
     document.apply(0, &order, None).unwrap();
-    let moved = &document.meshes()[0].mesh;
-    assert_eq!(moved.faces()[1], [3, 4, 5]);
+    assert_eq!(document.meshes()[0].mesh.faces()[1], [3, 4, 5]);
+    let moved = document.positions(0).unwrap().unwrap();
     let rotation = usize::from(order.rotation(0));
     let from = 3 * order.new_to_old()[0] as usize;
-    assert_eq!(moved.positions()[0], positions[from + rotation]);
+    assert_eq!(moved[0], positions[from + rotation]);
 }
 
 #[test]
@@ -388,7 +388,7 @@ fn sparse_elements_follow_their_vertices() {
     let numbers = &after.buffers[0].as_ref().unwrap()[start..start + 5];
     assert!(numbers.is_sorted() && *numbers != [7, 8, 21, 30, 31]);
     // The positions of the mesh are those with the sparse ones put in.
-    let positions = document.meshes()[0].mesh.positions();
+    let positions = document.positions(0).unwrap().unwrap();
     let stored = after.elements(&json!(position)).unwrap();
     for (position, stored) in positions.iter().zip(stored) {
         let floats = stored

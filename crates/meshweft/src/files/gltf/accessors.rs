@@ -46,10 +46,14 @@ impl Accessor {
 }
 
 /// The component types by their number in the file.
+pub(super) const BYTE: usize = 5120;
 pub(super) const UNSIGNED_BYTE: usize = 5121;
+pub(super) const SHORT: usize = 5122;
 pub(super) const UNSIGNED_SHORT: usize = 5123;
+pub(super) const INT: usize = 5124;
 pub(super) const UNSIGNED_INT: usize = 5125;
 pub(super) const FLOAT: usize = 5126;
+pub(super) const DOUBLE: usize = 5130;
 
 /// Columns and rows of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,10 +66,6 @@ impl Shape {
     pub(super) const SCALAR: Self = Self {
         columns: 1,
         rows: 1,
-    };
-    pub(super) const VEC3: Self = Self {
-        columns: 1,
-        rows: 3,
     };
 
     fn of_name(name: &str) -> Option<Self> {
@@ -82,8 +82,8 @@ impl Shape {
         Some(Self { columns, rows })
     }
 
-    /// The bytes from one column to the next, and of a whole element.
-    fn sizes(self, width: usize) -> (usize, usize) {
+    /// The bytes from one column to the next, and of a whole element, of components of `width` bytes.
+    pub(super) fn sizes(self, width: usize) -> (usize, usize) {
         let tight = self.rows * width;
         // Each column of a matrix starts at a multiple of four bytes.
         let column = match self.columns {
@@ -169,11 +169,11 @@ impl<'a> Accessors<'a> {
         let object = Object::new(value, format!("/accessors/{number}"))?;
         let component = object.required_number("componentType")?;
         let width = match component {
-            5120 | UNSIGNED_BYTE => 1,
-            5122 | UNSIGNED_SHORT => 2,
-            5124 | UNSIGNED_INT | FLOAT => 4,
+            BYTE | UNSIGNED_BYTE => 1,
+            SHORT | UNSIGNED_SHORT => 2,
+            INT | UNSIGNED_INT | FLOAT => 4,
             // 64-bit components come with an extension; their size is all that counts here.
-            5130 | 5134 | 5135 => 8,
+            DOUBLE | 5134 | 5135 => 8,
             other => {
                 return Err(object.problem(format!("there is no component type {other}")));
             }

@@ -17,7 +17,6 @@ use crate::error::MeshError;
 use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::index::index32;
-use crate::permutation::{Permutation, VertexOrder};
 
 /// Where the corners of a mesh's faces are stored.
 #[derive(Debug)]
@@ -47,6 +46,8 @@ pub(super) struct Entries {
     /// One for each mesh.
     pub(super) corners: Vec<Corners>,
     pub(super) groups: Vec<Group>,
+    /// Of each mesh the primitive that made it: the first with its faces. They rise.
+    pub(super) first_primitives: Vec<PrimitiveNumber>,
     /// The largest index of each mesh as it was read.
     largest_index: Vec<Option<u32>>,
     /// Why the vertices of a group stay, and the primitive that comes with it.
@@ -69,8 +70,6 @@ impl Entries {
         let mut obstacles: Vec<Option<(PrimitiveNumber, VertexObstacle)>> = vec![None; group_count];
         let mut entry_of = BTreeMap::new();
         let mut looked_through = BTreeSet::new();
-        // Copies of positions take no more memory than the file, however often they are shared.
-        let mut spare_positions = buffers.byte_count() / size_of::<[f32; 3]>();
 
         for (primitive, &group) in movable.iter().zip(&group_of) {
             // Why its vertices stay, as far as shared data tells.
@@ -95,7 +94,7 @@ impl Entries {
                 None => {
                     let entry = entries.meshes.len();
                     let name = primitives.name(primitive.number);
-                    entries.add(primitive, name, group, buffers, &mut spare_positions)?;
+                    entries.add(primitive, name, group, buffers)?;
                     entry_of.insert(key, entry);
                     entry
                 }
@@ -155,7 +154,6 @@ impl Entries {
         name: String,
         group: usize,
         buffers: &Buffers,
-        spare_positions: &mut usize,
     ) -> Result<(), Problem> {
         let at_primitive = |error: MeshError| {
             FileErrorKind::Order(error).at(Place::Json(primitive.number.pointer()))
@@ -174,29 +172,9 @@ impl Entries {
             }
         };
 
-        let positions = primitive
-            .positions
-            .map(|place| primitive.vertices[place as usize]);
-        let sparse = primitive
-            .uncommon
-            .as_ref()
-            .and_then(|uncommon| uncommon.sparse_positions);
-        let positions = positions.filter(|positions| positions.count <= *spare_positions);
-        let mesh = match positions {
-            Some(records) => {
-                *spare_positions -= records.count;
-                let mut positions: Vec<[f32; 3]> = records.of(buffers).map(floats).collect();
-                if let Some(Sparse { indices, values }) = &sparse {
-                    let numbers = patch::numbers(&buffers.storages[indices.storage].bytes, indices);
-                    for (number, value) in numbers.into_iter().zip(values.of(buffers)) {
-                        positions[number as usize] = floats(value);
-                    }
-                }
-                Mesh::new(positions, faces).map_err(at_primitive)?
-            }
-            None => Mesh::connectivity_only(primitive.vertex_count, faces).map_err(at_primitive)?,
-        };
+        let mesh = Mesh::connectivity_only(primitive.vertex_count, faces).map_err(at_primitive)?;
 
+        self.first_primitives.push(primitive.number);
         let largest = mesh.faces().as_flattened().iter().max();
         self.largest_index.push(largest.copied());
         self.groups[group].meshes.push(self.meshes.len());
@@ -219,23 +197,6 @@ impl Entries {
         });
         Ok(())
     }
-
-    /// Moves the positions of a mesh without indices as its vertices were moved; its faces stay
-    /// three vertices in a row.
-    pub(super) fn move_triples(&mut self, mesh: usize, new_to_old: Vec<u32>) {
-        let entry = &mut self.meshes[mesh].mesh;
-        if entry.positions().is_empty() {
-            return;
-        }
-        let order = VertexOrder::from(Permutation::from_algorithm(new_to_old));
-        let positions = order.permutation().apply(entry.positions());
-        *entry = Mesh::new(positions, entry.faces()).expect("as many positions as before");
-    }
-}
-
-fn floats(record: &[u8]) -> [f32; 3] {
-    let (words, _) = record.as_chunks::<4>();
-    [0, 1, 2].map(|i| words.get(i).map_or(0.0, |word| f32::from_le_bytes(*word)))
 }
 
 /// The largest value of an index type restarts a strip; in a triangle list it is not a vertex.

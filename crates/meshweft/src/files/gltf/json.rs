@@ -112,6 +112,16 @@ fn string_end(text: &[u8], start: usize) -> usize {
     text.len()
 }
 
+/// What the string that starts at byte `start` of sound JSON says.
+pub(super) fn string_at(text: &[u8], start: usize) -> Option<Cow<'_, str>> {
+    let quoted = &text[start..string_end(text, start)];
+    let inner = quoted.get(1..quoted.len() - 1)?;
+    if inner.contains(&b'\\') {
+        return serde_json::from_slice(quoted).ok().map(Cow::Owned);
+    }
+    std::str::from_utf8(inner).ok().map(Cow::Borrowed)
+}
+
 /// The byte after a number, `true`, `false` or `null`.
 fn word_end(text: &[u8], start: usize) -> usize {
     let ends = |byte: &u8| b",:]}[{\" \t\r\n".contains(byte);
@@ -142,6 +152,11 @@ impl<'a> Value<'a> {
         self.json.text[self.node().start as usize]
     }
 
+    /// Where it starts in the text.
+    pub(super) fn start(self) -> u32 {
+        self.node().start
+    }
+
     /// Where a string or number stands in the text, quotes included.
     pub(super) fn span(self) -> Range<usize> {
         let start = self.node().start as usize;
@@ -166,12 +181,12 @@ impl<'a> Value<'a> {
         if self.first_byte() != b'"' {
             return None;
         }
-        let quoted = &self.json.text[self.span()];
-        let inner = quoted.get(1..quoted.len() - 1)?;
-        if inner.contains(&b'\\') {
-            return serde_json::from_slice(quoted).ok().map(Cow::Owned);
-        }
-        std::str::from_utf8(inner).ok().map(Cow::Borrowed)
+        string_at(self.json.text, self.node().start as usize)
+    }
+
+    /// Whether it is the truth value `true`.
+    pub(super) fn is_true(self) -> bool {
+        self.first_byte() == b't'
     }
 
     /// The value as a whole number that can count bytes in memory.
@@ -221,7 +236,8 @@ impl<'a> Value<'a> {
             .map(|(name, value)| (name.text().unwrap_or_default(), value))
     }
 
-    fn named_nodes(self) -> impl Iterator<Item = (Self, Self)> {
+    /// The members of an object, each with the node of its name.
+    pub(super) fn named_nodes(self) -> impl Iterator<Item = (Self, Self)> {
         let end = match self.is_object() {
             true => self.node().next,
             false => 0,

@@ -11,7 +11,8 @@
 //!
 //! Read [`container`] → [`buffers`] → [`accessors`] → [`obstacles`] → [`movable`] → [`extensions`] →
 //! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`];
-//! [`notes`] says what is left.
+//! [`notes`] says what is left. Values are read when they are asked for: [`attributes`] →
+//! [`elements`].
 //!
 //! | word | what it is |
 //! |---|---|
@@ -19,6 +20,8 @@
 //! | `Storage` | bytes of the file or of a buffer beside it; several buffers may stand for one |
 //! | `StridedRecords` | equal pieces of a storage at equal distances: what a permutation moves |
 //! | `Accessor` | an accessor of the file, its bounds checked, as records |
+//! | `Elements` | what the elements of an accessor are, to be read as numbers |
+//! | `Attributes` | which elements each mesh has, by name |
 //! | `IndexList` | records that are vertex numbers: the corners of faces, or an outline |
 //! | `Sparse` | elements stored by number: their numbers, and their values |
 //! | `Obstacles` | why a primitive stays, or only its vertices, while its JSON is read |
@@ -33,10 +36,12 @@
 //! | `Missing` | why a buffer has no bytes |
 
 mod accessors;
+mod attributes;
 mod base64;
 mod buffers;
 mod byte_users;
 mod container;
+mod elements;
 mod entries;
 mod extensions;
 mod groups;
@@ -63,9 +68,11 @@ use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::options::ReadOptions;
 use super::surroundings::Surroundings;
+use crate::attribute::{Attribute, AttributeInfo};
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
 use accessors::Accessors;
+use attributes::Attributes;
 use buffers::Buffers;
 use byte_users::ByteUsers;
 use container::Container;
@@ -81,6 +88,7 @@ struct GltfFile {
     buffers: Buffers,
     uri_spans: BTreeMap<usize, Range<usize>>,
     entries: Entries,
+    attributes: Attributes,
 }
 
 /// Reads a `.gltf` or `.glb` of this name, and the buffers beside it.
@@ -116,6 +124,7 @@ pub(super) fn read(
     let mut byte_users = ByteUsers::new(&root, &accessors, &primitives);
     groups::keep_entangled(&mut primitives, &mut byte_users);
     let entries = Entries::new(&primitives, &byte_users, &buffers)?;
+    let attributes = Attributes::new(&root, &accessors, &entries.first_primitives);
 
     let notes = notes::notes(&root, &primitives, &entries, &buffers);
     let file = GltfFile {
@@ -123,6 +132,7 @@ pub(super) fn read(
         buffers,
         uri_spans,
         entries,
+        attributes,
     };
     Ok((Box::new(file), notes))
 }
@@ -186,6 +196,10 @@ fn check_version(root: &Object) -> Result<(), Problem> {
 }
 
 impl GltfFile {
+    fn json(&self) -> &[u8] {
+        &self.container.head[self.container.json.clone()]
+    }
+
     /// Moves the faces of a mesh; returns the mesh if its indices are then to be written.
     fn move_faces(&mut self, mesh: usize, faces: &FaceOrder) -> Vec<usize> {
         match &self.entries.corners[mesh] {
@@ -199,7 +213,6 @@ impl GltfFile {
                     let bytes = self.buffers.bytes_to_change(records.storage);
                     patch::permute(bytes, records, &new_to_old);
                 }
-                self.entries.move_triples(mesh, new_to_old);
                 Vec::new()
             }
         }
@@ -240,6 +253,16 @@ impl fmt::Debug for GltfFile {
 impl Content for GltfFile {
     fn meshes(&self) -> &[MeshEntry] {
         &self.entries.meshes
+    }
+
+    fn attributes(&self, mesh: usize) -> Vec<AttributeInfo> {
+        self.attributes.of_mesh(mesh, self.json())
+    }
+
+    fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem> {
+        let vertex_count = self.entries.meshes[mesh].mesh.vertex_count();
+        self.attributes
+            .read(mesh, info, self.json(), vertex_count, &self.buffers)
     }
 
     fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {

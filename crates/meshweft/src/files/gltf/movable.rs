@@ -40,8 +40,6 @@ pub(super) struct Movable {
     pub(super) indices: Option<Box<IndexList>>,
     /// Every attribute and morph target that has bytes, rising, each once.
     pub(super) vertices: Box<[StridedRecords]>,
-    /// Which of them is POSITION, if that is three floats.
-    pub(super) positions: Option<u32>,
     pub(super) uncommon: Option<Box<Uncommon>>,
     /// The numbers of all accessors it names.
     pub(super) accessors: Box<[u32]>,
@@ -50,8 +48,6 @@ pub(super) struct Movable {
 /// What few primitives have.
 #[derive(Debug, Default)]
 pub(super) struct Uncommon {
-    /// What is sparse of the positions.
-    pub(super) sparse_positions: Option<Sparse>,
     pub(super) outline: Option<IndexList>,
     /// The sparse elements of attributes and morph targets, rising, each once.
     pub(super) sparse: Vec<Sparse>,

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use super::accessors::{Accessor, Accessors, FLOAT, Shape};
+use super::accessors::{Accessor, Accessors};
 use super::extensions;
 use super::json::Value;
 use super::movable::{IndexList, Movable, Primitive, PrimitiveNumber, Staying, Uncommon};
@@ -14,7 +14,6 @@ use super::strided_records::StridedRecords;
 use crate::files::error::{Place, Problem};
 use crate::files::face_records::{check_face_count, check_vertex_count};
 use crate::files::options::ReadOptions;
-use crate::index::index32;
 
 /// All primitives of a file.
 #[derive(Debug, Default)]
@@ -81,8 +80,6 @@ impl Primitives {
 /// What attributes and morph targets store.
 #[derive(Default)]
 struct VertexData {
-    /// The sparse elements of POSITION.
-    positions: Option<Sparse>,
     records: Vec<StridedRecords>,
     sparse: Vec<Sparse>,
     unmoved_sparse: Vec<usize>,
@@ -129,11 +126,7 @@ impl PrimitiveReader<'_> {
         }
         self.check_limits(vertex_count, indices.as_ref())?;
 
-        let positions = position.filter(|p| p.component == FLOAT && p.shape == Shape::VEC3);
-        let positions = positions.and_then(|position| position.records);
-        let positions = positions.and_then(|p| data.records.binary_search(&p).ok());
         let uncommon = Uncommon {
-            sparse_positions: data.positions,
             sparse: data.sparse,
             unmoved_sparse: data.unmoved_sparse,
             outline,
@@ -143,7 +136,6 @@ impl PrimitiveReader<'_> {
             number: self.number,
             vertex_count,
             indices: indices.map(Box::new),
-            positions: positions.map(index32),
             vertices: data.records.into(),
             uncommon: (!uncommon.is_empty()).then(|| Box::new(uncommon)),
             accessors: self.named_accessors(),
@@ -236,12 +228,7 @@ impl PrimitiveReader<'_> {
                     false => Err("sparse data of faces without indices is not moved".into()),
                 };
                 match moved {
-                    Ok(sparse) => {
-                        if name == "POSITION" && accessor.pointer == position.pointer {
-                            data.positions = Some(sparse);
-                        }
-                        data.sparse.push(sparse);
-                    }
+                    Ok(sparse) => data.sparse.push(sparse),
                     Err(why) => {
                         obstacles.keep_vertices(&accessor.pointer, why);
                         data.unmoved_sparse.push(number);

@@ -29,6 +29,26 @@ impl Accessors<'_> {
         count: usize,
         size: usize,
     ) -> Result<Sparse, String> {
+        self.find_sparse(number, count, size, true)
+    }
+
+    /// As [`sparse`](Self::sparse), to read them where they are; `Err` says why they cannot be read.
+    pub(super) fn sparse_to_read(
+        &self,
+        number: usize,
+        count: usize,
+        size: usize,
+    ) -> Result<Sparse, String> {
+        self.find_sparse(number, count, size, false)
+    }
+
+    fn find_sparse(
+        &self,
+        number: usize,
+        count: usize,
+        size: usize,
+        is_to_move: bool,
+    ) -> Result<Sparse, String> {
         let incomplete = || "its sparse data is not complete".to_owned();
         let sparse = self.value(number).and_then(|a| a.get("sparse"));
         let sparse = sparse.ok_or_else(incomplete)?;
@@ -44,7 +64,7 @@ impl Accessors<'_> {
             _ => return Err(incomplete()),
         };
         let reach = u32::MAX >> (32 - 8 * width);
-        if count > reach as usize {
+        if is_to_move && count > reach as usize {
             return Err("the numbers of its sparse elements do not reach all vertices".into());
         }
 
@@ -58,6 +78,10 @@ impl Accessors<'_> {
 
         let indices = self.part(indices, stored, width).ok_or_else(incomplete)?;
         let values = self.part(values, stored, size).ok_or_else(incomplete)?;
+        let is_fixed = [indices, values].map(|part| self.fixed(part.storage).is_some());
+        if is_to_move && is_fixed.contains(&true) {
+            return Err(incomplete());
+        }
         let numbers = patch::numbers(self.bytes(&indices), &indices);
         let is_sound = numbers.is_sorted_by(|a, b| a < b)
             && numbers.last().is_none_or(|&last| (last as usize) < count);
@@ -78,7 +102,7 @@ impl Accessors<'_> {
         let offset = member(part, "byteOffset").unwrap_or(0);
         let length = count.checked_mul(size)?;
         let bytes = self.bytes_of_view(view, offset, Some(length))?;
-        (bytes.size == length && self.fixed(bytes.storage).is_none()).then_some(StridedRecords {
+        (bytes.size == length).then_some(StridedRecords {
             storage: bytes.storage,
             start: bytes.start,
             count,

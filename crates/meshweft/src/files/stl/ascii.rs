@@ -4,10 +4,12 @@
 
 use std::ops::Range;
 
+use super::attributes::{normal, position, positions};
 use super::facets::Facets;
+use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
-use crate::files::rewrite::{Notation, Rewrite};
+use crate::files::rewrite::{Notation, PlacedFace, Rewrite, StoredRecords, no_attribute};
 use crate::files::slots::Spans;
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
@@ -197,5 +199,72 @@ impl Notation for AsciiNotation {
             }
         }
         rewrite.write_corners(record, 0, |_| None);
+    }
+
+    fn attributes(&self) -> Vec<AttributeInfo> {
+        vec![position(), normal()]
+    }
+
+    fn attribute(
+        &self,
+        stored: &StoredRecords<'_>,
+        info: &AttributeInfo,
+    ) -> Result<Attribute, Problem> {
+        let numbers = if *info == position() {
+            positions(stored, |facet| {
+                let mut numbers = FacetNumbers::new(stored.source, facet);
+                // "facet normal i j k outer loop", then three times "vertex x y z".
+                let mut corners = [[0.0; 3]; 3];
+                for (corner, skipped) in corners.iter_mut().zip([8, 1, 1]) {
+                    *corner = numbers.three(skipped, "a position")?;
+                }
+                Ok(corners)
+            })?
+        } else if *info == normal() {
+            let normals = stored.faces().map(|facet| {
+                // "facet normal i j k".
+                FacetNumbers::new(stored.source, &facet).three(2, "a normal")
+            });
+            let normals: Result<Vec<[f32; 3]>, Problem> = normals.collect();
+            normals?.into_flattened()
+        } else {
+            return Err(no_attribute(info));
+        };
+        Ok(Attribute::new(info.clone(), Values::F32(numbers)))
+    }
+}
+
+/// The numbers of a facet, which was read before.
+struct FacetNumbers<'a> {
+    source: &'a [u8],
+    tokens: Tokens<'a>,
+    /// The number of the facet in the file.
+    facet: usize,
+}
+
+impl<'a> FacetNumbers<'a> {
+    fn new(source: &'a [u8], facet: &PlacedFace) -> Self {
+        Self {
+            source,
+            tokens: Tokens::plain(&source[..facet.span.end], facet.span.start),
+            facet: facet.record,
+        }
+    }
+
+    /// The three numbers after `skipped` words; `what` says what they are.
+    fn three(&mut self, skipped: usize, what: &str) -> Result<[f32; 3], Problem> {
+        let mut tokens = self.tokens.by_ref().skip(skipped);
+        let mut numbers = [0.0; 3];
+        for number in &mut numbers {
+            let end = self.source.len();
+            let token = tokens.next().unwrap_or(end..end);
+            *number = coordinate(&self.source[token.clone()]).ok_or_else(|| {
+                let (facet, found) = (self.facet, shown(&self.source[token.clone()]));
+                let text = format!("facet {facet}: {found} is not part of {what}: write a number");
+                let place = Place::Line(line_of(self.source, token.start));
+                FileErrorKind::malformed(text).at(place)
+            })?;
+        }
+        Ok(numbers)
     }
 }

@@ -1,9 +1,11 @@
 //! Binary STL: 80 bytes of anything, a count, 50 bytes a facet.
 
+use super::attributes::{self, attribute_bytes, normal, position};
 use super::facets::Facets;
+use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
-use crate::files::rewrite::{Notation, Rewrite};
+use crate::files::rewrite::{Notation, Rewrite, StoredRecords, no_attribute};
 use crate::files::slots::Spans;
 use crate::limits::Limits;
 
@@ -91,5 +93,32 @@ impl Notation for BinaryNotation {
             out.extend_from_slice(&record[start..start + POSITION]);
         }
         out.extend_from_slice(&record[NORMAL + 3 * POSITION..]);
+    }
+
+    fn attributes(&self) -> Vec<AttributeInfo> {
+        vec![position(), normal(), attribute_bytes()]
+    }
+
+    fn attribute(
+        &self,
+        stored: &StoredRecords<'_>,
+        info: &AttributeInfo,
+    ) -> Result<Attribute, Problem> {
+        let records = stored.faces().map(|facet| &stored.source[facet.span]);
+        let values = if *info == position() {
+            Values::F32(attributes::positions(stored, |facet| {
+                let bits = positions(&stored.source[facet.span.clone()]);
+                Ok(bits.map(|corner| corner.map(f32::from_bits)))
+            })?)
+        } else if *info == normal() {
+            let numbers = records.flat_map(|record| record[..NORMAL].as_chunks().0);
+            Values::F32(numbers.map(|&bytes| f32::from_le_bytes(bytes)).collect())
+        } else if *info == attribute_bytes() {
+            let numbers = records.flat_map(|record| record[FACET - 2..].as_chunks().0);
+            Values::U16(numbers.map(|&bytes| u16::from_le_bytes(bytes)).collect())
+        } else {
+            return Err(no_attribute(info));
+        };
+        Ok(Attribute::new(info.clone(), values))
     }
 }

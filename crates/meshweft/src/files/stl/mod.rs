@@ -10,8 +10,12 @@
 //!   which text has not. Many programs begin the header of a binary file with `solid`.
 //! - Each `solid` of an ascii file is a *run*: a facet never leaves it. A corner is turned by
 //!   exchanging the three positions of its facet.
+//!
+//! Attributes: the position of each vertex, and of each face its normal as it is stored, whatever
+//! that is; of a binary file also the two bytes at the end of a facet, as a number.
 
 mod ascii;
+mod attributes;
 mod binary;
 mod facets;
 
@@ -113,7 +117,6 @@ fn welded(facets: &[[[u32; 3]; 3]], limits: &Limits) -> Result<Mesh, FileErrorKi
         *vertex = sorted_of[*vertex as usize];
     }
 
-    let positions = unique.iter().map(|(bits, _)| bits.map(f32::from_bits));
-    let mesh = Mesh::new(positions.collect::<Vec<_>>(), records.faces);
+    let mesh = Mesh::connectivity_only(unique.len(), records.faces);
     mesh.map_err(|error| FileErrorKind::malformed(error.to_string()))
 }

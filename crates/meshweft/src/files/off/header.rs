@@ -1,0 +1,141 @@
+//! The keyword and the counts that an OFF file begins with.
+
+use std::ops::Range;
+
+use super::lines::Lines;
+use crate::files::error::{FileErrorKind, Problem};
+use crate::files::face_records::{check_face_count, check_vertex_count};
+use crate::files::text::{shown, whole_number};
+use crate::limits::Limits;
+
+pub(super) struct OffHeader {
+    pub(super) vertex_count: usize,
+    pub(super) face_count: usize,
+    /// How many coordinates a vertex has.
+    pub(super) dimension: usize,
+    /// How many numbers of a normal follow them.
+    pub(super) normal: usize,
+    /// Whether three numbers of a colour follow, or four.
+    pub(super) has_colours: bool,
+    /// How many numbers of texture coordinates follow.
+    pub(super) texture: usize,
+    /// How many numbers a vertex line has at least.
+    pub(super) vertex_numbers: usize,
+}
+
+/// Reads the keyword and the counts.
+pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader, Problem> {
+    let text = lines.text;
+    let mut tokens: Vec<Range<usize>> = Vec::new();
+    let mut used = 0;
+    // The next token, from as many lines as it takes; those of the last line stay in `tokens`.
+    let mut next = |lines: &mut Lines<'_>, what: &str| -> Result<Range<usize>, Problem> {
+        if used == tokens.len() {
+            let line = lines.next().ok_or_else(|| lines.truncated(what))?;
+            tokens = lines.tokens(&line).collect();
+            used = 0;
+        }
+        used += 1;
+        Ok(tokens[used - 1].clone())
+    };
+
+    let mut token = next(lines, "the header: an OFF file starts with the word OFF")?;
+    let (mut dimension, mut normal, mut has_colours, mut texture) = (3, 0, false, 0);
+    if whole_number(&text[token.clone()]).is_none() {
+        let keyword = Keyword::parse(&text[token.clone()]).ok_or_else(|| {
+            let found = shown(&text[token.clone()]);
+            let text = format!("{found} where an OFF file has the word OFF: is it another format?");
+            lines.malformed(token.start, text)
+        })?;
+        token = next(lines, "the header")?;
+        if text[token.clone()].eq_ignore_ascii_case(b"BINARY") {
+            let text = "binary OFF is not read. Convert it to ascii OFF or to PLY first";
+            return Err(lines.problem(token.start, FileErrorKind::unsupported(text)));
+        }
+        if keyword.names_dimension {
+            dimension = count(lines, token, "dimension")?;
+            token = next(lines, "the header")?;
+        }
+        dimension = dimension.saturating_add(usize::from(keyword.is_homogeneous));
+        normal = if keyword.has_normals { dimension } else { 0 };
+        has_colours = keyword.has_colours;
+        texture = if keyword.has_texture { 2 } else { 0 };
+    }
+    // Colours are written with three numbers or with four.
+    let colour = if has_colours { 3 } else { 0 };
+    let vertex_numbers = dimension
+        .saturating_add(normal)
+        .saturating_add(colour + texture);
+
+    let place = token.start;
+    let vertex_count = count(lines, token, "number of vertices")?;
+    let token = next(lines, "the header")?;
+    let face_count = count(lines, token, "number of faces")?;
+
+    // The number of edges is of no use here, and often wrong; but vertices cannot stand there.
+    if let Some(third) = tokens.get(used) {
+        let edges = whole_number(&text[third.clone()]);
+        if edges.is_none() || tokens.len() > used + 1 {
+            let text = "after the counts of vertices, faces and edges a new line must begin";
+            return Err(lines.malformed(third.start, text));
+        }
+    }
+
+    let checked = check_vertex_count(vertex_count, limits);
+    let checked = checked.and_then(|()| check_face_count(face_count, limits));
+    checked.map_err(|kind| lines.problem(place, kind))?;
+    Ok(OffHeader {
+        vertex_count,
+        face_count,
+        dimension,
+        normal,
+        has_colours,
+        texture,
+        vertex_numbers,
+    })
+}
+
+/// A number of the header that counts something.
+fn count(lines: &Lines<'_>, token: Range<usize>, what: &str) -> Result<usize, Problem> {
+    let number = whole_number(&lines.text[token.clone()]);
+    let number = number.and_then(|number| usize::try_from(number).ok());
+    number.ok_or_else(|| {
+        let found = shown(&lines.text[token.clone()]);
+        lines.malformed(
+            token.start,
+            format!("the {what} is {found}, which counts nothing"),
+        )
+    })
+}
+
+/// `[ST][C][N][4][n]OFF`: what a vertex line holds beside its coordinates.
+struct Keyword {
+    has_texture: bool,
+    has_colours: bool,
+    has_normals: bool,
+    /// A fourth coordinate to divide by.
+    is_homogeneous: bool,
+    /// The number of coordinates stands before the counts.
+    names_dimension: bool,
+}
+
+impl Keyword {
+    fn parse(token: &[u8]) -> Option<Self> {
+        let mut rest = token.strip_suffix(b"OFF")?;
+        let mut takes = |prefix: &[u8]| match rest.strip_prefix(prefix) {
+            Some(after) => {
+                rest = after;
+                true
+            }
+            None => false,
+        };
+        let keyword = Self {
+            has_texture: takes(b"ST"),
+            has_colours: takes(b"C"),
+            has_normals: takes(b"N"),
+            is_homogeneous: takes(b"4"),
+            names_dimension: takes(b"n"),
+        };
+        rest.is_empty().then_some(keyword)
+    }
+}
