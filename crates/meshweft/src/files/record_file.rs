@@ -9,9 +9,10 @@ use super::content::{Content, OutputFile};
 use super::entry::MeshEntry;
 use super::error::Problem;
 use super::orders::{RecordOrders, record_in};
-use super::rewrite::{Change, Notation, Rewrite};
+use super::rewrite::{Change, Notation, Rewrite, StoredMesh};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
+use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
 
 /// A file of records, and the orders its records were put in.
@@ -100,6 +101,21 @@ impl<N> fmt::Debug for RecordFile<N> {
 impl<N: Notation> Content for RecordFile<N> {
     fn meshes(&self) -> &[MeshEntry] {
         &self.entries
+    }
+
+    fn attributes(&self, _mesh: usize) -> Vec<AttributeInfo> {
+        self.notation.attributes()
+    }
+
+    fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem> {
+        let stored = StoredMesh {
+            source: &self.source,
+            vertices: &self.vertices,
+            faces: &self.faces,
+            entry: &self.entries[mesh],
+            orders: &self.orders,
+        };
+        self.notation.attribute(&stored, info)
     }
 
     fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {

@@ -1,8 +1,14 @@
-//! Face records on their way to the output: corners turned, vertices renumbered, all else copied.
+//! Face records on their way to the output: corners turned, vertices renumbered, all else copied; and
+//! records on their way to values.
 
 use std::ops::Range;
 
-use super::text::{leading_number, push_number};
+use super::entry::MeshEntry;
+use super::error::{FileErrorKind, Place, Problem};
+use super::orders::{RecordOrders, record_in};
+use super::slots::Spans;
+use super::text::{coordinate, leading_number, push_number};
+use crate::attribute::{Attribute, AttributeInfo};
 
 /// What happens to the corners of a face.
 #[derive(Debug, Clone, Copy)]
@@ -89,7 +95,93 @@ pub(super) fn vertex_from_zero(corner: &[u8]) -> Option<(usize, usize)> {
     Some((usize::try_from(number).ok()?, length))
 }
 
-/// How a format writes the corners of a face record.
+/// Where the records of a mesh stand, and the orders they were put in.
+pub(super) struct StoredMesh<'a> {
+    pub(super) source: &'a [u8],
+    pub(super) vertices: &'a Spans,
+    pub(super) faces: &'a Spans,
+    pub(super) entry: &'a MeshEntry,
+    pub(super) orders: &'a RecordOrders,
+}
+
+/// A face record where it now is.
+pub(super) struct PlacedFace {
+    /// Its number in the file.
+    pub(super) record: usize,
+    pub(super) span: Range<usize>,
+    /// How far its corners are turned.
+    pub(super) rotation: usize,
+    pub(super) face_count: usize,
+}
+
+impl StoredMesh<'_> {
+    /// The number in the file of each vertex and where it stands, in the order in which they now are.
+    pub(super) fn vertices(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
+        (0..self.vertices.len()).map(|vertex| {
+            let record = record_in(&self.orders.vertices, vertex);
+            (record, self.vertices.span(record))
+        })
+    }
+
+    /// The face records, in the order in which they now are.
+    pub(super) fn faces(&self) -> impl Iterator<Item = PlacedFace> {
+        (0..self.faces.len()).map(|slot| {
+            let record = record_in(&self.orders.records, slot);
+            PlacedFace {
+                record,
+                span: self.faces.span(record),
+                rotation: self.orders.rotation(slot),
+                face_count: match &self.entry.polygons {
+                    Some(starts) => (starts[slot + 1] - starts[slot]) as usize,
+                    None => 1,
+                },
+            }
+        })
+    }
+}
+
+/// The corners of the faces of a record with `count` corners, three a face, as numbers of the
+/// corners that the file has.
+pub(super) fn fan(count: usize, rotation: usize) -> impl Iterator<Item = usize> {
+    let change = Change {
+        rotation,
+        old_to_new: &[],
+    };
+    let corners = (2..count).flat_map(|last| [0, last - 1, last]);
+    corners.map(move |corner| change.turned(corner, count))
+}
+
+/// Whether `token` is a [`coordinate`]; the usual ones are told without working out the number.
+#[inline]
+pub(super) fn is_coordinate(token: &[u8]) -> bool {
+    let digits = |from: usize| {
+        let rest = token[from..].iter();
+        rest.take_while(|byte| byte.is_ascii_digit()).count()
+    };
+    let mut at = usize::from(matches!(token.first(), Some(b'-' | b'+')));
+    let mut found = digits(at);
+    at += found;
+    if token.get(at) == Some(&b'.') {
+        let after = digits(at + 1);
+        at += 1 + after;
+        found += after;
+    }
+    if found > 0 && matches!(token.get(at), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(token.get(at + 1), Some(b'-' | b'+')));
+        let exponent = digits(at + 1 + sign);
+        at += 1 + sign + exponent;
+        found = exponent;
+    }
+    (found > 0 && at == token.len()) || coordinate(token).is_some()
+}
+
+/// The error for an attribute that a mesh does not have.
+pub(super) fn no_attribute(info: &AttributeInfo) -> Problem {
+    let text = format!("this mesh has no attribute {}", info.semantic);
+    FileErrorKind::unsupported(text).at(Place::File)
+}
+
+/// How a format writes the corners of a face record, and reads what is stored in records.
 pub(super) trait Notation: Send + Sync {
     /// Appends a face record with its corners changed.
     fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>);
@@ -97,5 +189,59 @@ pub(super) trait Notation: Send + Sync {
     /// Appends a line that names vertices and stays where it is.
     fn write_line(&self, line: &[u8], rewrite: Rewrite<'_>) {
         rewrite.out.extend_from_slice(line);
+    }
+
+    /// See [`Content::attributes`](super::content::Content::attributes).
+    fn attributes(&self) -> Vec<AttributeInfo> {
+        Vec::new()
+    }
+
+    /// See [`Content::attribute`](super::content::Content::attribute).
+    fn attribute(
+        &self,
+        _stored: &StoredMesh<'_>,
+        info: &AttributeInfo,
+    ) -> Result<Attribute, Problem> {
+        Err(no_attribute(info))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_a_coordinate_is_what_parses() {
+        let alphabet = b"+-.0e7Enaif ";
+        let mut tokens = vec![Vec::new()];
+        for from in 0.. {
+            let Some(token) = tokens.get(from).cloned() else {
+                break;
+            };
+            let parses = coordinate(&token).is_some();
+            assert_eq!(is_coordinate(&token), parses, "{:?}", token.escape_ascii());
+            if token.len() < 5 {
+                let longer = |&byte: &u8| [token.as_slice(), &[byte]].concat();
+                tokens.extend(alphabet.iter().map(longer));
+            }
+        }
+        for token in [
+            "infinity",
+            "-Infinity",
+            "1e9999",
+            "0.00000000000000000001e-50",
+            "1e+-3",
+            "1f",
+        ] {
+            let token = token.as_bytes();
+            assert_eq!(is_coordinate(token), coordinate(token).is_some());
+        }
+    }
+
+    #[test]
+    fn corners_of_a_fan_are_turned_as_those_of_a_triangle() {
+        assert_eq!(fan(3, 2).collect::<Vec<_>>(), [2, 0, 1]);
+        assert_eq!(fan(5, 0).collect::<Vec<_>>(), [0, 1, 2, 0, 2, 3, 0, 3, 4]);
+        assert_eq!(fan(2, 0).chain(fan(0, 0)).count(), 0);
     }
 }
