@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::files::{Document, Format, MeshEntry};
+use meshweft::files::{Document, Format};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 
 fuzz_target!(|data: &[u8]| {
@@ -23,7 +23,8 @@ fn check(data: &[u8], format: Format, path: &Path) {
         .expect("what was read can be written");
     assert_eq!(unchanged, data);
     for mesh in 0..document.meshes().len() {
-        let before = triangles(&document.meshes()[mesh]);
+        let before = triangles(&document, mesh);
+        check_attributes(&document, mesh);
         let entry = &document.meshes()[mesh];
         let faces = FaceOrder::from(reversed(entry.record_count()));
         let vertices = entry
@@ -32,43 +33,48 @@ fn check(data: &[u8], format: Format, path: &Path) {
         document
             .apply(mesh, &faces, vertices.as_ref())
             .expect("the orders have the right lengths");
-        assert_eq!(before, triangles(&document.meshes()[mesh]));
+        assert_eq!(before, triangles(&document, mesh));
     }
     let bytes = document
         .to_main_bytes()
         .expect("what was read can be written");
     let again = read(bytes).expect("what was written can be read");
     assert_eq!(document.meshes().len(), again.meshes().len());
-    for (written, read) in document.meshes().iter().zip(again.meshes()) {
+    for (mesh, (written, read)) in document.meshes().iter().zip(again.meshes()).enumerate() {
         // Positions may be no numbers, which differ from themselves.
         assert_eq!(written.mesh.faces(), read.mesh.faces());
-        assert_eq!(triangles(written), triangles(read));
+        assert_eq!(triangles(&document, mesh), triangles(&again, mesh));
     }
 }
 
 /// What each triangle's corners hold, whatever the order of faces, corners and vertices.
 ///
 /// Where the file gives no positions only the number of triangles can be told.
-fn triangles(entry: &MeshEntry) -> Vec<[[u32; 3]; 3]> {
-    let positions = entry.mesh.positions();
+fn triangles(document: &Document, mesh: usize) -> Vec<[[u32; 3]; 3]> {
+    let positions = document.positions(mesh).ok().flatten().unwrap_or_default();
     let corner = |vertex: u32| {
         let position = positions.get(vertex as usize);
         position.map_or([0; 3], |position| position.map(f32::to_bits))
     };
-    let mut triangles: Vec<[[u32; 3]; 3]> = entry
-        .mesh
-        .faces()
-        .iter()
-        .map(|face| {
-            let [a, b, c] = face.map(corner);
-            [[a, b, c], [b, c, a], [c, a, b]]
-                .into_iter()
-                .min()
-                .unwrap_or_default()
-        })
-        .collect();
+    let faces = document.meshes()[mesh].mesh.faces().iter();
+    let turned = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(corner);
+        let turns = [[a, b, c], [b, c, a], [c, a, b]];
+        turns.into_iter().min().unwrap_or_default()
+    };
+    let mut triangles: Vec<[[u32; 3]; 3]> = faces.map(turned).collect();
     triangles.sort_unstable();
     triangles
+}
+
+/// Every attribute can be read, or says why not; how many elements it has is known.
+fn check_attributes(document: &Document, mesh: usize) {
+    let mesh_entry = &document.meshes()[mesh].mesh;
+    for info in document.attributes(mesh) {
+        if let Ok(attribute) = document.attribute(mesh, &info) {
+            assert_eq!(attribute.len(), mesh_entry.vertex_count(), "{info:?}");
+        }
+    }
 }
 
 fn reversed(len: usize) -> Permutation {

@@ -279,7 +279,7 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
     };
     for mesh in 0..document.meshes().len() {
         let entry = &document.meshes()[mesh];
-        let mut ordered = entry.without_positions();
+        let mut ordered = entry.clone();
         let faces = entry.record_order(|mesh, polygons| match polygons {
             Some(starts) => algorithm.polygon_order(mesh, starts),
             None => algorithm.face_order(mesh),

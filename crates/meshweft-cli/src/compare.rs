@@ -28,7 +28,7 @@ pub(crate) struct Compare {
 pub(crate) fn run(arguments: &Compare) -> Result<()> {
     let open = |path: &Path| Document::open(path, Limits::default());
     let (a, b) = (open(&arguments.a)?, open(&arguments.b)?);
-    let found = operations::compare(&a, &b, &arguments.caches.models());
+    let found = operations::compare(&a, &b, &arguments.caches.models())?;
 
     let report = &arguments.report;
     report.json_line(&found.to_json())?;

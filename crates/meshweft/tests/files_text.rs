@@ -8,8 +8,14 @@ mod broken;
 mod data;
 #[path = "files_errors/mod.rs"]
 mod errors;
+#[path = "files_text/follow.rs"]
+mod follow;
+#[path = "files_text/obj_values.rs"]
+mod obj_values;
 #[path = "files_text/off_attributes.rs"]
 mod off_attributes;
+#[path = "files_text/ply_values.rs"]
+mod ply_values;
 #[path = "files_text/real.rs"]
 mod real;
 #[path = "../../../fuzz/fuzz_targets/round_trip/mod.rs"]
@@ -383,7 +389,7 @@ fn narrow_ply_indices_keep_their_vertices() {
     text.push_str("3 0 1 255\n");
     let document = open(text.as_bytes(), Format::Ply);
     assert!(!document.meshes()[0].vertices_movable);
-    assert!(document.meshes()[0].mesh.positions().is_empty());
+    assert!(document.positions(0).unwrap().is_none());
     assert_eq!(
         document.notes()[0].text,
         "the vertices stay where they are: their indices are stored in 1 bytes, which cannot name all 257"

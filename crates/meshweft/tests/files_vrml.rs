@@ -8,10 +8,14 @@ mod broken;
 mod data;
 #[path = "files_errors/mod.rs"]
 mod errors;
+#[path = "files_text/follow.rs"]
+mod follow;
 #[path = "files_vrml/plain.rs"]
 mod plain;
 #[path = "../../../fuzz/fuzz_targets/round_trip/mod.rs"]
 mod round_trip;
+#[path = "files_vrml/values.rs"]
+mod values;
 
 use std::path::Path;
 

@@ -78,7 +78,7 @@ fn a_document_gets_better_keeps_its_triangles_and_settles() {
             // What is promised is what the file has.
             let inspected = operations::inspect(&after, models);
             assert_eq!(sum(&inspected.total), sum(&report.total.after));
-            let compared = operations::compare(&document(&text), &after, models);
+            let compared = operations::compare(&document(&text), &after, models).unwrap();
             assert!(compared.is_same() && compared.better == Some(1));
             assert_eq!(compared.better_name(), "b");
 
@@ -162,7 +162,7 @@ fn a_caller_may_stop_at_any_time_and_loses_nothing() {
         let report = operations::optimize(&mut after, &options, &caller).unwrap();
         stopped += u32::from(report.is_stopped);
         let models = options.target.models();
-        let compared = operations::compare(&document(&text), &after, models);
+        let compared = operations::compare(&document(&text), &after, models).unwrap();
         assert!(compared.is_same() && compared.better != Some(0));
         let json: serde_json::Value = serde_json::from_str(&report.to_json()).unwrap();
         assert_eq!(json["stopped"], report.is_stopped);
@@ -228,7 +228,9 @@ fn reports_have_one_schema() {
         ),
         (
             "compare",
-            operations::compare(&after, &after, &USUAL_CACHES).to_json(),
+            operations::compare(&after, &after, &USUAL_CACHES)
+                .unwrap()
+                .to_json(),
         ),
     ];
     for (command, text) in &reports {

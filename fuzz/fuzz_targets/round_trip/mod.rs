@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use meshweft::attribute::Domain;
 use meshweft::files::{Document, Format, MeshEntry};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 
@@ -23,6 +24,7 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
     for mesh in 0..document.meshes().len() {
         let entry = &document.meshes()[mesh];
         before.push(triangles(entry, false));
+        check_attributes(&document, mesh);
         let faces = last_first_within_runs(entry);
         let vertices = entry
             .vertices_movable
@@ -38,6 +40,21 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
         let after = triangles(entry, entry.vertices_movable);
         assert_eq!(*before, after, "the triangles by their old vertex numbers");
         assert_eq!(now.mesh.faces(), entry.mesh.faces());
+    }
+}
+
+/// Every attribute can be read, or says why not; how many elements it has is known.
+fn check_attributes(document: &Document, mesh: usize) {
+    let entry = &document.meshes()[mesh];
+    for info in document.attributes(mesh) {
+        let count = match info.domain {
+            Domain::Vertex => entry.mesh.vertex_count(),
+            Domain::Corner => 3 * entry.mesh.face_count(),
+            _ => entry.mesh.face_count(),
+        };
+        if let Ok(attribute) = document.attribute(mesh, &info) {
+            assert_eq!(attribute.len(), count, "{info:?}");
+        }
     }
 }
 

@@ -13,7 +13,8 @@ use crate::permutation::{FaceOrder, Permutation, VertexOrder};
 pub struct MeshEntry {
     /// What the file calls it, or a description of where it stands.
     pub name: String,
-    /// Its connectivity, polygons cut into fans in record order. Positions may be missing.
+    /// Its connectivity, polygons cut into fans in record order; it has no positions: see
+    /// [`Document::positions`](super::Document::positions).
     pub mesh: Mesh,
     /// Where each polygon's faces start in `mesh` (one more entry than records), or `None` where
     /// each record is one triangle.
@@ -30,27 +31,6 @@ pub struct MeshEntry {
 }
 
 impl MeshEntry {
-    /// A copy that has the connectivity only, which is all that orders go by.
-    #[must_use]
-    pub fn without_positions(&self) -> Self {
-        let Self {
-            name,
-            polygons,
-            runs,
-            mesh,
-            ..
-        } = self;
-        let faces = mesh.faces().to_vec();
-        Self {
-            name: name.clone(),
-            mesh: Mesh::connectivity_only(mesh.vertex_count(), faces)
-                .expect("the same faces as in a mesh"),
-            polygons: polygons.clone(),
-            runs: runs.clone(),
-            ..*self
-        }
-    }
-
     /// How many face records the mesh has.
     #[must_use]
     pub fn record_count(&self) -> usize {

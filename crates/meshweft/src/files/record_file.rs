@@ -8,7 +8,7 @@ use super::content::{Content, Destination, OutputFile};
 use super::entry::MeshEntry;
 use super::error::Problem;
 use super::orders::{RecordOrders, record_in};
-use super::rewrite::{Change, Notation, Rewrite, StoredRecords};
+use super::rewrite::{Change, Notation, Rewrite, StoredMesh};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
 use crate::attribute::{Attribute, AttributeInfo};
@@ -107,7 +107,7 @@ impl<N: Notation> Content for RecordFile<N> {
     }
 
     fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem> {
-        let stored = StoredRecords {
+        let stored = StoredMesh {
             source: &self.source,
             vertices: &self.vertices,
             faces: &self.faces,

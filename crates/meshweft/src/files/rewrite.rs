@@ -96,7 +96,7 @@ pub(super) fn vertex_from_zero(corner: &[u8]) -> Option<(usize, usize)> {
 }
 
 /// Where the records of a mesh stand, and the orders they were put in.
-pub(super) struct StoredRecords<'a> {
+pub(super) struct StoredMesh<'a> {
     pub(super) source: &'a [u8],
     pub(super) vertices: &'a Spans,
     pub(super) faces: &'a Spans,
@@ -114,7 +114,7 @@ pub(super) struct PlacedFace {
     pub(super) face_count: usize,
 }
 
-impl StoredRecords<'_> {
+impl StoredMesh<'_> {
     /// The number in the file of each vertex and where it stands, in the order in which they now are.
     pub(super) fn vertices(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
         (0..self.vertices.len()).map(|vertex| {
@@ -138,6 +138,17 @@ impl StoredRecords<'_> {
             }
         })
     }
+}
+
+/// The corners of the faces of a record with `count` corners, three a face, as numbers of the
+/// corners that the file has.
+pub(super) fn fan(count: usize, rotation: usize) -> impl Iterator<Item = usize> {
+    let change = Change {
+        rotation,
+        old_to_new: &[],
+    };
+    let corners = (2..count).flat_map(|last| [0, last - 1, last]);
+    corners.map(move |corner| change.turned(corner, count))
 }
 
 /// Whether `token` is a [`coordinate`]; the usual ones are told without working out the number.
@@ -188,7 +199,7 @@ pub(super) trait Notation: Send + Sync {
     /// See [`Content::attribute`](super::content::Content::attribute).
     fn attribute(
         &self,
-        _stored: &StoredRecords<'_>,
+        _stored: &StoredMesh<'_>,
         info: &AttributeInfo,
     ) -> Result<Attribute, Problem> {
         Err(no_attribute(info))
@@ -225,5 +236,12 @@ mod tests {
             let token = token.as_bytes();
             assert_eq!(is_coordinate(token), coordinate(token).is_some());
         }
+    }
+
+    #[test]
+    fn corners_of_a_fan_are_turned_as_those_of_a_triangle() {
+        assert_eq!(fan(3, 2).collect::<Vec<_>>(), [2, 0, 1]);
+        assert_eq!(fan(5, 0).collect::<Vec<_>>(), [0, 1, 2, 0, 2, 3, 0, 3, 4]);
+        assert_eq!(fan(2, 0).chain(fan(0, 0)).count(), 0);
     }
 }

@@ -9,31 +9,47 @@ use super::counts::Counts;
 use super::json;
 use crate::cache::CacheModel;
 use crate::faces::turned;
-use crate::files::{Document, MeshEntry, Note};
+use crate::files::{Document, FileError, MeshEntry, Note};
 
 /// How two documents differ as triangles and in misses under these models.
 ///
+/// # Errors
+/// [`FileError`] if positions cannot be read.
+///
 /// # Complexity
-/// Time O(faces · log faces), space 36 bytes a face of both, and the counts.
-#[must_use]
-pub fn compare(a: &Document, b: &Document, models: &[CacheModel]) -> CompareReport {
+/// Time O(faces · log faces), space 36 bytes a face and 12 a vertex of both, and the counts.
+pub fn compare(
+    a: &Document,
+    b: &Document,
+    models: &[CacheModel],
+) -> Result<CompareReport, FileError> {
     // Positions tell vertices apart whatever their numbers; without them the numbers must do.
-    let mut entries = a.meshes().iter().chain(b.meshes());
-    let is_by_position = entries.all(|e| e.mesh.positions().len() == e.mesh.vertex_count());
+    let positions = [positions(a)?, positions(b)?];
+    let is_by_position = positions.iter().all(Option::is_some);
+    let by_position = |side: usize| positions[side].as_deref().filter(|_| is_by_position);
     let [only_in_a, only_in_b] = differences(
-        &triangles(a.meshes(), is_by_position),
-        &triangles(b.meshes(), is_by_position),
+        &triangles(a.meshes(), by_position(0)),
+        &triangles(b.meshes(), by_position(1)),
     );
 
     let sides = [a, b].map(|document| ComparedFile::new(document, models));
     let better = better(&sides[0].counts, &sides[1].counts);
-    CompareReport {
+    Ok(CompareReport {
         sides,
         only_in: [only_in_a, only_in_b],
         is_by_position,
         better,
-    }
+    })
 }
+
+/// The positions of each mesh, if all have such.
+fn positions(document: &Document) -> Result<Option<Vec<Positions>>, FileError> {
+    let meshes = 0..document.meshes().len();
+    meshes.map(|mesh| document.positions(mesh)).collect()
+}
+
+/// One entry a vertex.
+type Positions = Vec<[f32; 3]>;
 
 /// What [`compare`] found.
 #[derive(Debug, Clone)]
@@ -137,13 +153,13 @@ fn better(a: &Counts, b: &Counts) -> Option<usize> {
 }
 
 /// All triangles, sorted; a triangle starts at its least corner, the orientation kept.
-fn triangles(entries: &[MeshEntry], by_position: bool) -> Vec<[[u32; 3]; 3]> {
+fn triangles(entries: &[MeshEntry], positions: Option<&[Positions]>) -> Vec<[[u32; 3]; 3]> {
     let mut triangles = Vec::new();
-    for entry in entries {
-        let identity = |vertex: u32| match by_position {
+    for (mesh, entry) in entries.iter().enumerate() {
+        let identity = |vertex: u32| match positions {
             // Zero has two signs, which are one place.
-            true => entry.mesh.positions()[vertex as usize].map(|x| (x + 0.0).to_bits()),
-            false => [vertex, 0, 0],
+            Some(positions) => positions[mesh][vertex as usize].map(|x| (x + 0.0).to_bits()),
+            None => [vertex, 0, 0],
         };
         for face in entry.mesh.faces() {
             let corners = face.map(identity);

@@ -45,8 +45,7 @@ pub(super) fn improve(
     progress: &dyn Progress,
 ) -> Improvement {
     let algorithm = Algorithm::new(options);
-    // Orders go by connectivity alone.
-    let mut entries: Vec<MeshEntry> = entries.iter().map(MeshEntry::without_positions).collect();
+    let mut entries = entries.to_vec();
     let mut faces: Vec<FaceChange> = entries.iter().map(FaceChange::none).collect();
     let mut vertices = vertex_groups(&entries);
 

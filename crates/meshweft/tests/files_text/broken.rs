@@ -111,7 +111,7 @@ fn stl_cases() -> Vec<(Vec<u8>, String)> {
 }
 
 /// One file of each kind, small enough to be spoilt in thousands of ways.
-fn small_files() -> Vec<(Vec<u8>, Format)> {
+pub(super) fn small_files() -> Vec<(Vec<u8>, Format)> {
     let off = b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0 # c\n3 0 1 2\n4 2 1 0 1 255 0\n";
     let obj = b"\\\n\nv 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n 3\nf 3 2 1\nl -1 2";
     let lists = "property list uchar uchar texcoord\n";

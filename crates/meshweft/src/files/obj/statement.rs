@@ -2,15 +2,50 @@
 
 use std::ops::Range;
 
-use crate::files::rewrite::{Notation, Rewrite};
-use crate::files::text::{Tokens, is_line_end, leading_number, line_end, trimmed};
+use crate::files::text::{is_blank, is_line_end, leading_number, line_end, trimmed};
+
+/// Where each statement of a file stands.
+pub(super) struct Statements<'a> {
+    source: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Statements<'a> {
+    pub(super) fn new(source: &'a [u8]) -> Self {
+        // A byte order mark is not part of the first keyword.
+        let has_mark = source.starts_with(b"\xef\xbb\xbf");
+        let at = if has_mark { 3 } else { 0 };
+        Self { source, at }
+    }
+}
+
+impl Iterator for Statements<'_> {
+    type Item = Range<usize>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Range<usize>> {
+        let source = self.source;
+        while let Some(&byte) = source.get(self.at) {
+            if is_blank(byte) || is_line_end(byte) {
+                self.at += 1;
+            } else if byte == b'#' {
+                self.at = line_end(source, self.at);
+            } else {
+                let (span, end) = statement_span(source, self.at);
+                self.at = end;
+                return Some(span);
+            }
+        }
+        None
+    }
+}
 
 /// The statement that starts at `start`, and where its last line ends: at a line end that no `\`
 /// stands before.
 ///
 /// A `\` at the end of a comment continues nothing. One that only blank lines follow is not part of
 /// the statement: moved along, it would swallow the line after its new place.
-pub(super) fn statement_span(source: &[u8], start: usize) -> (Range<usize>, usize) {
+fn statement_span(source: &[u8], start: usize) -> (Range<usize>, usize) {
     let mut from = start;
     loop {
         let end = line_end(source, from);
@@ -32,51 +67,20 @@ pub(super) fn statement_span(source: &[u8], start: usize) -> (Range<usize>, usiz
     }
 }
 
-/// Whether `/2`, `//3`, `/2/3` names a texture coordinate, and a normal; `None` if it is something
+/// The texture coordinate and the normal that `/2`, `//3`, `/2/3` names; `None` if it is something
 /// else. Numbers may be missing, as some programs leave them.
-pub(super) fn attributes_named(text: &[u8]) -> Option<[bool; 2]> {
-    let mut named = [false; 2];
+pub(super) fn attribute_numbers(text: &[u8]) -> Option<[Option<i64>; 2]> {
+    let mut numbers = [None; 2];
     let mut rest = text;
-    for is_named in &mut named {
+    for named in &mut numbers {
         let Some((b'/', after)) = rest.split_first() else {
             break;
         };
         rest = after;
-        if let Some((_, length)) = leading_number(rest) {
-            *is_named = true;
+        if let Some((number, length)) = leading_number(rest) {
+            *named = Some(number);
             rest = &rest[length..];
         }
     }
-    rest.is_empty().then_some(named)
-}
-
-/// How corners stand in `f`, `l` and `p` lines.
-pub(super) struct ObjNotation {
-    /// How many vertices the file has.
-    pub(super) vertex_count: usize,
-}
-
-impl Notation for ObjNotation {
-    fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>) {
-        rewrite.corners.clear();
-        rewrite
-            .corners
-            .extend(Tokens::of_statement(record, 0).skip(1));
-        // Vertices are only renumbered where all of them stand above the first face, so counting
-        // back starts at the last one everywhere.
-        let vertex_of = |corner: &[u8]| {
-            let (number, length) = leading_number(corner)?;
-            let number = isize::try_from(number).ok()?;
-            let vertex = match number > 0 {
-                true => usize::try_from(number - 1).ok()?,
-                false => self.vertex_count.checked_add_signed(number)?,
-            };
-            Some((vertex, length))
-        };
-        rewrite.write_corners(record, 1, vertex_of);
-    }
-
-    fn write_line(&self, line: &[u8], rewrite: Rewrite<'_>) {
-        self.write_face(line, rewrite);
-    }
+    rest.is_empty().then_some(numbers)
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::header::OffHeader;
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::files::rewrite::StoredRecords;
+use crate::files::rewrite::StoredMesh;
 use crate::files::text::{Tokens, coordinate, line_of, shown, whole_number};
 
 /// How many numbers stand where lines have colours, and of which kind.
@@ -121,7 +121,7 @@ pub(super) fn columns(
 
 impl Column {
     /// The values, in the order in which vertices and faces now are.
-    pub(super) fn read(&self, stored: &StoredRecords<'_>) -> Result<Attribute, Problem> {
+    pub(super) fn read(&self, stored: &StoredMesh<'_>) -> Result<Attribute, Problem> {
         let values = match self.info.component_type {
             ComponentType::U8 => Values::U8(self.numbers(stored, byte)?),
             _ => Values::F32(self.numbers(stored, coordinate)?),
@@ -131,7 +131,7 @@ impl Column {
 
     fn numbers<T: Copy + Default>(
         &self,
-        stored: &StoredRecords<'_>,
+        stored: &StoredMesh<'_>,
         number: impl Fn(&[u8]) -> Option<T>,
     ) -> Result<Vec<T>, Problem> {
         let source = stored.source;

@@ -30,7 +30,7 @@ use super::options::ReadOptions;
 use super::orders::RecordOrders;
 use super::record_file::RecordFile;
 use super::rewrite::{
-    Notation, Rewrite, StoredRecords, is_coordinate, no_attribute, vertex_from_zero,
+    Notation, Rewrite, StoredMesh, is_coordinate, no_attribute, vertex_from_zero,
 };
 use super::slots::Spans;
 use super::text::{Tokens, shown, whole_number};
@@ -233,7 +233,7 @@ impl Notation for OffNotation {
 
     fn attribute(
         &self,
-        stored: &StoredRecords<'_>,
+        stored: &StoredMesh<'_>,
         info: &AttributeInfo,
     ) -> Result<Attribute, Problem> {
         let mut columns = self.columns.iter();

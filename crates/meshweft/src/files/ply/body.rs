@@ -13,9 +13,10 @@ use crate::limits::Limits;
 /// What was found after the header.
 pub(super) struct Body {
     pub(super) vertices: Spans,
-    pub(super) positions: Vec<[f32; 3]>,
     pub(super) faces: Spans,
     pub(super) records: FaceRecords,
+    /// Whether every face has texture coordinates for every corner.
+    pub(super) has_texture: bool,
     /// The rows of elements that go where the faces go.
     pub(super) companions: Vec<Spans>,
 }
@@ -29,7 +30,7 @@ pub(super) fn read<R: PlyRows>(
 ) -> Result<Body, Fault> {
     let mut body = Body {
         vertices: Spans::new(),
-        positions: Vec::new(),
+        has_texture: false,
         faces: Spans::new(),
         records: FaceRecords::default(),
         companions: Vec::new(),
@@ -85,35 +86,27 @@ fn read_vertices<R: PlyRows>(
     element: &Element,
     body: &mut Body,
 ) -> Result<(), Fault> {
-    let [Some(x), Some(y), Some(z)] = ["x", "y", "z"].map(|name| element.scalar(name)) else {
-        // Positions are not needed for anything: the file may have its vertices in another form.
-        let spans = &mut body.vertices;
-        return pass_over(rows, element, |_, span| spans.push(span));
-    };
-
-    // PlyRows of one length are read at once.
-    if let Some((start, positions)) = rows.positions(element, [x, y, z]) {
-        let length = (rows.at() - start) / element.count.max(1);
-        let pushed = body.vertices.push_even(start, length, element.count);
-        pushed.map_err(|kind| Fault { at: start, kind })?;
-        body.positions = positions;
+    if element.properties.is_empty() {
         return Ok(());
     }
+    if let Some((start, length)) = rows.pass_even(element) {
+        let pushed = body.vertices.push_even(start, length, element.count);
+        return pushed.map_err(|kind| Fault { at: start, kind });
+    }
 
-    let axis_of = |number: usize| [x, y, z].iter().position(|&axis| axis == number);
-    let axes: Vec<Option<usize>> = (0..element.properties.len()).map(axis_of).collect();
-    body.positions.reserve(rows.at_most(element));
+    // The file may have its vertices in another form than three coordinates.
+    let axes = ["x", "y", "z"].map(|name| element.scalar(name));
+    let has_positions = axes.iter().all(Option::is_some);
+    let is_axis = |number| has_positions && axes.contains(&Some(number));
+    let is_axis: Vec<bool> = (0..element.properties.len()).map(is_axis).collect();
     for number in 0..element.count {
         let row = Row { element, number };
-        let mut position = [0.0; 3];
         let start = rows.start_row();
-        for (property, axis) in element.properties.iter().zip(&axes) {
-            match (property.kind, axis) {
-                (PropertyKind::Scalar(scalar), &Some(axis)) => {
-                    position[axis] = rows.float(scalar, &row)?
-                }
-                (PropertyKind::Scalar(scalar), None) => rows.skip(1, scalar, &row)?,
-                (PropertyKind::List { count, item }, _) => {
+        for (property, &is_axis) in element.properties.iter().zip(&is_axis) {
+            match property.kind {
+                PropertyKind::Scalar(scalar) if is_axis => rows.coordinate(scalar, &row)?,
+                PropertyKind::Scalar(scalar) => rows.skip(1, scalar, &row)?,
+                PropertyKind::List { count, item } => {
                     let count = rows.list_length(count, &row)?;
                     rows.skip(count, item, &row)?;
                 }
@@ -121,7 +114,6 @@ fn read_vertices<R: PlyRows>(
         }
 
         let end = rows.end_row(&row)?;
-        body.positions.push(position);
         let pushed = body.vertices.push(start..end);
         pushed.map_err(|kind| Fault { at: start, kind })?;
     }
@@ -140,6 +132,8 @@ fn read_faces<R: PlyRows>(
         return Ok(());
     };
     let vertex_count = header.vertex_count();
+    let texture = element.texture_list();
+    body.has_texture = texture.is_some();
     let layout = TriangleLayout::of(element, list);
     let mut corners = Vec::new();
     body.records.reserve(rows.at_most(element), rows.left());
@@ -156,7 +150,9 @@ fn read_faces<R: PlyRows>(
             }
         }
 
-        read_corners(rows, list, &row, vertex_count, &mut corners)?;
+        let lists = [Some(list), texture];
+        let numbers = read_corners(rows, lists, &row, vertex_count, &mut corners)?;
+        body.has_texture &= corners.len() < 3 || numbers == corners.len() * 2;
         let end = rows.end_row(&row)?;
         let pushed = body.records.push(&corners, limits);
         let pushed = pushed.and_then(|()| body.faces.push(start..end));
@@ -201,22 +197,27 @@ fn read_triangles<R: PlyRows>(
     Ok(read)
 }
 
-/// Reads a row; `corners` gets what the list with this number holds.
+/// Reads a row; `corners` gets what the first of these lists holds. How many numbers are in the
+/// second.
 #[inline]
 fn read_corners<R: PlyRows>(
     rows: &mut R,
-    list: usize,
+    [list, texture]: [Option<usize>; 2],
     row: &Row<'_>,
     vertex_count: usize,
     corners: &mut Vec<u32>,
-) -> Result<(), Fault> {
+) -> Result<usize, Fault> {
     corners.clear();
+    let mut numbers = 0;
     for (number, property) in row.element.properties.iter().enumerate() {
         match property.kind {
             PropertyKind::Scalar(scalar) => rows.skip(1, scalar, row)?,
             PropertyKind::List { count, item } => {
                 let count = rows.list_length(count, row)?;
-                if number != list {
+                if Some(number) != list {
+                    if Some(number) == texture {
+                        numbers = count;
+                    }
                     rows.skip(count, item, row)?;
                     continue;
                 }
@@ -229,5 +230,5 @@ fn read_corners<R: PlyRows>(
             }
         }
     }
-    Ok(())
+    Ok(numbers)
 }

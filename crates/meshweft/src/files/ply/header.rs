@@ -109,6 +109,13 @@ impl Element {
         self.properties.iter().position(is_it)
     }
 
+    /// The number of the list that may hold two texture coordinates a corner.
+    pub(super) fn texture_list(&self) -> Option<usize> {
+        let is_it =
+            |p: &Property| p.name == "texcoord" && matches!(p.kind, PropertyKind::List { .. });
+        self.properties.iter().position(is_it)
+    }
+
     /// The least a row takes in a binary file.
     pub(super) fn smallest_row(&self) -> usize {
         let size = |property: &Property| match property.kind {

@@ -10,12 +10,29 @@
 //! - a face property may be about one corner or one edge, so corners are turned only where every
 //!   property is known to be about the face as a whole.
 //!
+//! Every property that is one number can be read, of vertices and of faces. These have a meaning:
+//!
+//! | properties | attribute |
+//! |---|---|
+//! | `x y z`, of vertices | position |
+//! | `nx ny nz` | normal |
+//! | `red green blue`, `r g b`, `diffuse_red` …, each with or without its alpha | color |
+//! | `s t`, `u v`, `texture_u texture_v` | texture coordinate |
+//! | the list `texcoord` of the faces, two numbers a corner in every face | texture coordinate of corners |
+//!
+//! A second color or texture coordinate has the next number. Numbers keep their type; where the
+//! types of one attribute differ, they become `float` if that holds them all, else `double`. The
+//! whole numbers without a sign of a color are fractions of the largest.
+//!
 //! [`header`] says what is in the file, [`plan`] what may move, [`rows`] reads values and [`body`]
-//! whole elements, [`notation`] writes corners.
+//! whole elements, [`notation`] writes corners, [`attributes`] reads what is stored with them, as
+//! the types of [`number`].
 
+mod attributes;
 mod body;
 mod header;
 mod notation;
+mod number;
 mod plan;
 mod rows;
 
@@ -71,10 +88,10 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
             _ => Place::Byte(fault.at),
         })
     })?;
-    finish(bytes, &header, plan, body)
+    finish(bytes, header, plan, body)
 }
 
-fn finish(bytes: Vec<u8>, header: &PlyHeader, plan: Plan, body: Body) -> ReadResult {
+fn finish(bytes: Vec<u8>, header: PlyHeader, plan: Plan, body: Body) -> ReadResult {
     let mut notes = Vec::new();
     let mut entries = Vec::new();
     let record_count = body.records.len();
@@ -87,10 +104,7 @@ fn finish(bytes: Vec<u8>, header: &PlyHeader, plan: Plan, body: Body) -> ReadRes
             None => Note::nothing_to_order(),
         });
     } else {
-        let mesh = match body.positions.is_empty() {
-            true => Mesh::connectivity_only(body.vertices.len(), body.records.faces),
-            false => Mesh::new(body.positions, body.records.faces),
-        };
+        let mesh = Mesh::connectivity_only(body.vertices.len(), body.records.faces);
         let mesh = mesh.map_err(|e| FileErrorKind::malformed(e.to_string()).at(Place::File))?;
         let faces_move = plan.face_obstacle.is_none();
         entries.push(MeshEntry {
@@ -121,7 +135,7 @@ fn finish(bytes: Vec<u8>, header: &PlyHeader, plan: Plan, body: Body) -> ReadRes
         faces: body.faces,
         companions: body.companions,
         lines: Spans::new(),
-        notation: PlyNotation::new(header),
+        notation: PlyNotation::new(header, body.has_texture),
         entries,
         orders: RecordOrders::default(),
     };

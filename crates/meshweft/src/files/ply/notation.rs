@@ -1,32 +1,55 @@
 //! Writing the corners of a PLY face.
 
+use super::attributes::PlyAttributes;
 use super::header::{Element, Encoding, PlyHeader, PropertyKind, Scalar};
 use super::rows::{Ascii, Binary, PlyRows, Row};
-use crate::files::rewrite::{Change, Notation, Rewrite, vertex_from_zero};
+use crate::attribute::{Attribute, AttributeInfo};
+use crate::files::error::Problem;
+use crate::files::rewrite::{Change, Notation, Rewrite, StoredMesh, vertex_from_zero};
 use crate::files::text::Tokens;
 
-/// How corners stand in face rows.
+/// How corners stand in face rows, and what else rows hold.
 pub(super) struct PlyNotation {
     encoding: Encoding,
+    vertex: Option<Element>,
     /// The face element, and which of its properties is the list of corners.
     face: Option<(Element, usize)>,
     /// How many bytes of a binary row come before the first corner, and the type of corners, where
     /// that is the same in all rows.
     first_corner: Option<(usize, Scalar)>,
+    has_texture: bool,
 }
 
 impl PlyNotation {
-    pub(super) fn new(header: &PlyHeader) -> Self {
-        let face = header.element("face");
-        let face = face.and_then(|face| Some((face.clone(), face.corner_list()?)));
+    /// `has_texture`: as [`PlyAttributes::has_texture`].
+    pub(super) fn new(header: PlyHeader, has_texture: bool) -> Self {
         let encoding = header.encoding;
+        let (mut vertex, mut face) = (None, None);
+        for element in header.elements {
+            match element.name.as_str() {
+                "vertex" => vertex = Some(element),
+                "face" => face = element.corner_list().map(|list| (element, list)),
+                _ => {}
+            }
+        }
         let mut notation = Self {
             encoding,
+            vertex,
             face,
             first_corner: None,
+            has_texture,
         };
         notation.first_corner = notation.find_first_corner();
         notation
+    }
+
+    fn stored_values(&self) -> PlyAttributes<'_> {
+        PlyAttributes {
+            encoding: self.encoding,
+            vertex: self.vertex.as_ref(),
+            face: self.face.as_ref().map(|(face, _)| face),
+            has_texture: self.has_texture,
+        }
     }
 
     fn find_first_corner(&self) -> Option<(usize, Scalar)> {
@@ -192,5 +215,17 @@ impl Notation for PlyNotation {
                 Self::write_binary::<true>(record, corners, change, rewrite.out);
             }
         }
+    }
+
+    fn attributes(&self) -> Vec<AttributeInfo> {
+        self.stored_values().infos()
+    }
+
+    fn attribute(
+        &self,
+        stored: &StoredMesh<'_>,
+        info: &AttributeInfo,
+    ) -> Result<Attribute, Problem> {
+        self.stored_values().read(stored, info)
     }
 }

@@ -1,8 +1,10 @@
 //! Reading the rows of a PLY file, ascii or binary, value by value.
 
 use super::header::{Element, Property, PropertyKind, Scalar};
+use super::number::PlyNumber;
 use crate::files::error::{Fault, FileErrorKind};
-use crate::files::text::{Tokens, coordinate, is_blank, is_line_end, shown, whole_number};
+use crate::files::rewrite::is_coordinate;
+use crate::files::text::{Tokens, is_blank, is_line_end, shown, whole_number};
 
 /// The row that is being read, for errors.
 #[derive(Clone, Copy)]
@@ -36,8 +38,12 @@ pub(super) trait PlyRows {
     fn end_row(&mut self, row: &Row<'_>) -> Result<usize, Fault>;
     /// Reads past `count` values.
     fn skip(&mut self, count: usize, scalar: Scalar, row: &Row<'_>) -> Result<(), Fault>;
-    /// A coordinate.
-    fn float(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<f32, Fault>;
+    /// Reads past a coordinate, after looking whether it is one.
+    fn coordinate(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<(), Fault> {
+        self.skip(1, scalar, row)
+    }
+    /// A number, as another type that holds all numbers of its type.
+    fn number<T: PlyNumber>(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<T, Fault>;
     /// A whole number; the type is not a float.
     fn whole(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault>;
     /// The number of entries of a list, which stands before them.
@@ -52,13 +58,9 @@ pub(super) trait PlyRows {
     /// How many rows of the element can be there, by the bytes that are left.
     fn at_most(&self, element: &Element) -> usize;
 
-    /// The positions in rows of numbers only, if their coordinates are floats of four bytes and the
-    /// rows are all there; and where the rows start. A faster way, for rows of one length.
-    fn positions(
-        &mut self,
-        _element: &Element,
-        _axes: [usize; 3],
-    ) -> Option<(usize, Vec<[f32; 3]>)> {
+    /// Reads past all rows of the element, if they have one length and are all there; where they
+    /// start, and that length. A faster way, that leaves whatever is unusual to the other.
+    fn pass_even(&mut self, _element: &Element) -> Option<(usize, usize)> {
         None
     }
 
@@ -173,10 +175,24 @@ impl PlyRows for Ascii<'_> {
     }
 
     #[inline]
-    fn float(&mut self, _scalar: Scalar, row: &Row<'_>) -> Result<f32, Fault> {
+    fn coordinate(&mut self, _scalar: Scalar, row: &Row<'_>) -> Result<(), Fault> {
         let token = self.token(row)?;
-        coordinate(token).ok_or_else(|| {
-            let text = format!("{} is not a coordinate: write a number", shown(token));
+        if is_coordinate(token) {
+            return Ok(());
+        }
+        let text = format!("{} is not a coordinate: write a number", shown(token));
+        Err(row.malformed(self.tokens.at(), text))
+    }
+
+    #[inline]
+    fn number<T: PlyNumber>(&mut self, _scalar: Scalar, row: &Row<'_>) -> Result<T, Fault> {
+        let token = self.token(row)?;
+        T::of_token(token).ok_or_else(|| {
+            let text = format!(
+                "{} is not {}: write a number of its type",
+                shown(token),
+                T::KIND
+            );
             row.malformed(self.tokens.at(), text)
         })
     }
@@ -264,16 +280,11 @@ impl<const BIG: bool> PlyRows for Binary<'_, BIG> {
     }
 
     #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_precision_loss,
-        reason = "positions are single precision in a mesh, whatever the file has"
-    )]
-    fn float(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<f32, Fault> {
+    fn number<T: PlyNumber>(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<T, Fault> {
         Ok(match scalar {
-            Scalar::F32 => number!(self, row, f32),
-            Scalar::F64 => number!(self, row, f64) as f32,
-            whole => self.whole(whole, row)? as f32,
+            Scalar::F32 => T::of_f32(number!(self, row, f32)),
+            Scalar::F64 => T::of_f64(number!(self, row, f64)),
+            whole => T::of_whole(self.whole(whole, row)?),
         })
     }
 
@@ -300,37 +311,19 @@ impl<const BIG: bool> PlyRows for Binary<'_, BIG> {
         element.count.min(left / element.smallest_row().max(1) + 1)
     }
 
-    fn positions(&mut self, element: &Element, axes: [usize; 3]) -> Option<(usize, Vec<[f32; 3]>)> {
-        let mut offsets = Vec::with_capacity(element.properties.len());
-        let mut length = 0;
-        for property in &element.properties {
-            let PropertyKind::Scalar(scalar) = property.kind else {
-                return None;
-            };
-            offsets.push((length, scalar));
-            length += scalar.size();
-        }
-        let offsets = axes.map(|axis| offsets[axis]);
-        if offsets.iter().any(|&(_, scalar)| scalar != Scalar::F32) {
-            return None;
-        }
-
+    fn pass_even(&mut self, element: &Element) -> Option<(usize, usize)> {
+        let size = |property: &Property| match property.kind {
+            PropertyKind::Scalar(scalar) => Some(scalar.size()),
+            PropertyKind::List { .. } => None,
+        };
+        let length: usize = element.properties.iter().map(size).sum::<Option<_>>()?;
         let start = self.at;
         let end = element.count.checked_mul(length)?.checked_add(start)?;
-        let rows = self.source.get(start..end)?;
+        if end > self.source.len() {
+            return None;
+        }
         self.at = end;
-
-        let position = |row: &[u8]| {
-            offsets.map(|(offset, _)| {
-                let bytes = row[offset..].first_chunk().copied().unwrap_or_default();
-                match BIG {
-                    true => f32::from_be_bytes(bytes),
-                    false => f32::from_le_bytes(bytes),
-                }
-            })
-        };
-        let rows = rows.chunks_exact(length.max(1));
-        Some((start, rows.map(position).collect()))
+        Some((start, length))
     }
 
     fn triangles(

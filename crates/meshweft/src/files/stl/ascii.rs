@@ -9,7 +9,7 @@ use super::facets::Facets;
 use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
-use crate::files::rewrite::{Notation, PlacedFace, Rewrite, StoredRecords, no_attribute};
+use crate::files::rewrite::{Notation, PlacedFace, Rewrite, StoredMesh, no_attribute};
 use crate::files::slots::Spans;
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
@@ -207,7 +207,7 @@ impl Notation for AsciiNotation {
 
     fn attribute(
         &self,
-        stored: &StoredRecords<'_>,
+        stored: &StoredMesh<'_>,
         info: &AttributeInfo,
     ) -> Result<Attribute, Problem> {
         let numbers = if *info == position() {

@@ -2,7 +2,7 @@
 
 use crate::attribute::{AttributeInfo, ComponentType, Domain, Semantic};
 use crate::files::error::Problem;
-use crate::files::rewrite::{PlacedFace, StoredRecords};
+use crate::files::rewrite::{PlacedFace, StoredMesh};
 
 pub(super) fn position() -> AttributeInfo {
     AttributeInfo::new(Semantic::Position, Domain::Vertex, 3, ComponentType::F32)
@@ -20,7 +20,7 @@ pub(super) fn attribute_bytes() -> AttributeInfo {
 
 /// The position of each vertex, from the corners that stand there.
 pub(super) fn positions(
-    stored: &StoredRecords<'_>,
+    stored: &StoredMesh<'_>,
     mut of_facet: impl FnMut(&PlacedFace) -> Result<[[f32; 3]; 3], Problem>,
 ) -> Result<Vec<f32>, Problem> {
     let mesh = &stored.entry.mesh;

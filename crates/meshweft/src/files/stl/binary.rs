@@ -5,7 +5,7 @@ use super::facets::Facets;
 use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
-use crate::files::rewrite::{Notation, Rewrite, StoredRecords, no_attribute};
+use crate::files::rewrite::{Notation, Rewrite, StoredMesh, no_attribute};
 use crate::files::slots::Spans;
 use crate::limits::Limits;
 
@@ -101,7 +101,7 @@ impl Notation for BinaryNotation {
 
     fn attribute(
         &self,
-        stored: &StoredRecords<'_>,
+        stored: &StoredMesh<'_>,
         info: &AttributeInfo,
     ) -> Result<Attribute, Problem> {
         let records = stored.faces().map(|facet| &stored.source[facet.span]);

@@ -1,7 +1,8 @@
 //! What moves with the faces and vertices of a face set, and what keeps it from moving.
 
+use super::attributes::{Elements, RoleValues, used_vertices};
 use super::lexer::index;
-use super::lists::{Groups, Polygons, positions};
+use super::lists::{self, Groups, Polygons};
 use super::scene::{Child, FaceSet, List, Role, Scene};
 use crate::Mesh;
 use crate::error::MeshError;
@@ -21,6 +22,8 @@ pub(super) struct Slots {
     pub(super) companions: Vec<Spans>,
     /// What goes by vertex: points, and colors, normals, texture coordinates without indices.
     pub(super) vertices: Vec<Spans>,
+    /// What can be read.
+    pub(super) values: Vec<RoleValues>,
 }
 
 /// A face set that can be ordered.
@@ -30,6 +33,9 @@ pub(super) struct Bound {
     pub(super) slots: Slots,
     /// Why its vertices stay.
     pub(super) vertices_stay: Option<String>,
+    /// The number of its points in [`Binder::shared`], if they are shared; its vertices are then
+    /// those that its faces name, by number.
+    pub(super) shared: Option<usize>,
 }
 
 /// Why a face set stays as it is, or what is wrong with the file.
@@ -49,13 +55,13 @@ fn stays<T>(why: impl Into<String>) -> Result<T, Stop> {
     Err(Stop::Stays(why.into()))
 }
 
-/// Binds face sets; the positions of shared coordinates are read once.
+/// Binds face sets; the points of shared coordinates are found once.
 pub(super) struct Binder<'a> {
     pub(super) text: &'a [u8],
     pub(super) scene: &'a Scene<'a>,
     pub(super) limits: &'a Limits,
-    /// By number of [`Scene::coordinates`].
-    pub(super) shared: Vec<Option<Vec<[f32; 3]>>>,
+    /// Where the points stand, by number of [`Scene::coordinates`].
+    pub(super) shared: Vec<Option<Spans>>,
 }
 
 impl Binder<'_> {
@@ -95,6 +101,7 @@ impl Binder<'_> {
             polygons: vec![std::mem::replace(&mut corners.spans, Spans::new())],
             companions: Vec::new(),
             vertices: Vec::new(),
+            values: Vec::new(),
         };
         let mut vertices_stay = None;
         for (role, per_face) in [
@@ -121,21 +128,22 @@ impl Binder<'_> {
         // Its mesh.
         let malformed =
             |error: MeshError| Stop::Fault(Fault::malformed(set.span.start, error.to_string()));
-        let (mesh, obstacle) = match &set.children[Role::Coord as usize] {
+        let faces = std::mem::take(&mut corners.records.faces);
+        let (mesh, obstacle, shared) = match set.children[Role::Coord as usize] {
             Child::Used(Some(shared)) => {
-                let positions = self.shared_positions(*shared)?;
-                let mesh = of_used(positions, std::mem::take(&mut corners.records.faces));
+                self.find_shared(shared)?;
                 let why = "its Coordinate is shared with another node";
-                (mesh.map_err(malformed)?, Some(why.to_owned()))
+                (of_used(faces), Some(why.to_owned()), Some(shared))
             }
             _ => {
-                let mut spans = Spans::new();
-                let positions = positions(self.text, points, Some(&mut spans))?;
-                slots.vertices.insert(0, spans);
-                let mesh = Mesh::new(positions, std::mem::take(&mut corners.records.faces));
-                (mesh.map_err(malformed)?, self.points_stay(set))
+                slots.vertices.insert(0, lists::points(self.text, points)?);
+                let mesh = Mesh::connectivity_only(vertex_count, faces);
+                (mesh, self.points_stay(set), None)
             }
         };
+        let mesh = mesh.map_err(malformed)?;
+        let position = RoleValues::new(Role::Coord, points, Elements::Vertices);
+        slots.values.insert(0, position);
         vertices_stay = obstacle.or(vertices_stay);
 
         let name = match &set.name {
@@ -155,6 +163,7 @@ impl Binder<'_> {
             entry,
             slots,
             vertices_stay,
+            shared,
         })
     }
 
@@ -252,6 +261,13 @@ impl Binder<'_> {
             let at = span.start;
             spans.push(span).map_err(|kind| Fault { at, kind })?;
         }
+        if let Child::Own(_, list) = child {
+            let elements = match numbers_each {
+                1 => Elements::FaceIndices(slots.companions.len()),
+                _ => Elements::Faces,
+            };
+            slots.values.push(RoleValues::new(role, list, elements));
+        }
         slots.companions.push(spans);
         Ok(())
     }
@@ -273,12 +289,22 @@ impl Binder<'_> {
                 let field = role.index_field();
                 return stays(format!("its {field} has other faces than coordIndex"));
             };
+            if let Child::Own(_, list) = child {
+                let elements = Elements::Corners(slots.polygons.len());
+                slots.values.push(RoleValues::new(role, list, elements));
+            }
             slots.polygons.push(spans);
             return Ok(None);
         }
 
-        let numbers_each = if role == Role::TexCoord { 2 } else { 3 };
+        let numbers_each = role.components();
         let field = role.field();
+        if let Child::Own(_, list) = child
+            && list.count >= vertex_count * numbers_each
+        {
+            let values = RoleValues::new(role, list, Elements::Vertices);
+            slots.values.push(values);
+        }
         match child {
             Child::None => Ok(None),
             Child::Own(_, values) if !self.is_shared(child) => {
@@ -327,26 +353,23 @@ impl Binder<'_> {
         Ok(Some(spans))
     }
 
-    fn shared_positions(&mut self, number: usize) -> Result<&[[f32; 3]], Fault> {
+    fn find_shared(&mut self, number: usize) -> Result<(), Fault> {
         let slot = &mut self.shared[number];
         if slot.is_none() {
-            *slot = Some(positions(self.text, &self.scene.coordinates[number], None)?);
+            *slot = Some(lists::points(self.text, &self.scene.coordinates[number])?);
         }
-        Ok(slot.as_deref().unwrap_or_default())
+        Ok(())
     }
 }
 
 /// The mesh of the vertices that its faces name: several face sets may share many points and name
 /// few each.
-fn of_used(points: &[[f32; 3]], mut faces: Vec<[u32; 3]>) -> Result<Mesh, MeshError> {
-    let mut used = faces.as_flattened().to_vec();
-    used.sort_unstable();
-    used.dedup();
+fn of_used(mut faces: Vec<[u32; 3]>) -> Result<Mesh, MeshError> {
+    let used = used_vertices(faces.as_flattened().to_vec());
     for vertex in faces.as_flattened_mut() {
         *vertex = index32(used.partition_point(|&other| other < *vertex));
     }
-    let positions = used.iter().map(|&vertex| points[vertex as usize]);
-    Mesh::new(positions.collect::<Vec<_>>(), faces)
+    Mesh::connectivity_only(used.len(), faces)
 }
 
 /// What `coordIndex` holds.

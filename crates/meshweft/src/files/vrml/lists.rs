@@ -1,41 +1,50 @@
-//! Lists of numbers, cut into polygons, positions, colors.
+//! Lists of numbers, cut into polygons, points, colors; and their values.
 
 use std::ops::Range;
 
 use super::lexer::{Lexer, index};
 use super::scene::List;
 use crate::files::error::Fault;
+use crate::files::rewrite::is_coordinate;
 use crate::files::slots::Spans;
 use crate::files::text::{coordinate, shown};
 
-/// Three numbers a vertex; where each stands goes to `spans`.
-pub(super) fn positions(
-    text: &[u8],
-    list: &List,
-    mut spans: Option<&mut Spans>,
-) -> Result<Vec<[f32; 3]>, Fault> {
-    let mut positions = Vec::with_capacity(list.count / 3);
+/// Where the points of a list stand, three numbers each, after looking whether they are coordinates.
+pub(super) fn points(text: &[u8], list: &List) -> Result<Spans, Fault> {
+    let mut spans = Spans::new();
     for span in Groups::new(text, list, 3) {
         let mut words = Lexer::new(&text[..span.end], span.start);
-        let mut position = [0.0; 3];
-        for value in &mut position {
+        for _ in 0..3 {
             let word = words.word().unwrap_or(span.end..span.end);
-            *value = coordinate(&text[word.clone()]).ok_or_else(|| {
+            if !is_coordinate(&text[word.clone()]) {
                 let text = format!(
                     "{} is not a coordinate: write a number",
                     shown(&text[word.clone()])
                 );
-                Fault::malformed(word.start, text)
-            })?;
+                return Err(Fault::malformed(word.start, text));
+            }
         }
-
-        positions.push(position);
-        if let Some(spans) = &mut spans {
-            let at = span.start;
-            spans.push(span).map_err(|kind| Fault { at, kind })?;
-        }
+        let at = span.start;
+        spans.push(span).map_err(|kind| Fault { at, kind })?;
     }
-    Ok(positions)
+    Ok(spans)
+}
+
+/// Appends all numbers of a stretch of text.
+pub(super) fn numbers(
+    text: &[u8],
+    span: Range<usize>,
+    numbers: &mut Vec<f32>,
+) -> Result<(), Fault> {
+    let mut words = Lexer::new(&text[..span.end], span.start);
+    while let Some(word) = words.word() {
+        let number = &text[word.clone()];
+        numbers.push(coordinate(number).ok_or_else(|| {
+            let text = format!("{} is not a value: write a number", shown(number));
+            Fault::malformed(word.start, text)
+        })?);
+    }
+    Ok(())
 }
 
 /// A polygon with its -1.

@@ -10,7 +10,14 @@
 //! - What something else may read by number stays, with a note: lists that a `USE` or a `ROUTE`
 //!   names, fields that are one of a `PROTO`, everything if a `Script` is handed nodes.
 //! - A face set whose `coord` is a `USE` has the vertices that its own faces name. They stay.
+//!
+//! What can be read of a face set: its positions; its normals, colors and texture coordinates if
+//! their node stands in the face set. They go by vertex where they go by the numbers of
+//! `coordIndex`, by corner where they have indices of their own, by face where the face set says so.
+//! A node that is a `USE` is not looked up but for `coord`, so what it holds is not listed; nor is a
+//! list by vertex that has fewer entries than vertices. What a `ROUTE` sends later is not known.
 
+mod attributes;
 mod bindings;
 mod fields;
 mod lexer;
@@ -29,10 +36,13 @@ use super::error::{FileErrorKind, Place, Problem};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::{RecordOrders, record_in};
-use super::rewrite::{Change, Rewrite};
+use super::rewrite::{Change, Rewrite, no_attribute};
+use super::slots::Spans;
 use super::splice::{Layer, splice};
 use super::text::is_line_end;
+use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::permutation::{FaceOrder, VertexOrder};
+use attributes::{RoleValues, ValueReader};
 use bindings::{Binder, Slots, Stop};
 use lexer::{Lexer, index};
 
@@ -69,6 +79,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
                 sets.push(Set {
                     span: set.span.clone(),
                     slots: bound.slots,
+                    shared: bound.shared,
                     orders: RecordOrders::default(),
                 });
             }
@@ -77,6 +88,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         }
     }
 
+    let shared = binder.shared;
     let mut notes = said.notes(&bytes);
     if entries.is_empty() && notes.is_empty() {
         notes.push(Note::nothing_to_order());
@@ -84,6 +96,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     let file = VrmlFile {
         source: bytes,
         sets,
+        shared,
         entries,
     };
     Ok((Box::new(file), notes))
@@ -173,6 +186,8 @@ impl Said {
 struct Set {
     span: Range<usize>,
     slots: Slots,
+    /// The number of its points in [`VrmlFile::shared`], if they are shared.
+    shared: Option<usize>,
     orders: RecordOrders,
 }
 
@@ -180,6 +195,8 @@ struct VrmlFile {
     source: Vec<u8>,
     /// In the order of the file; none holds another.
     sets: Vec<Set>,
+    /// Where points stand that face sets share.
+    shared: Vec<Option<Spans>>,
     /// One a set.
     entries: Vec<MeshEntry>,
 }
@@ -273,6 +290,29 @@ impl fmt::Debug for VrmlFile {
 impl Content for VrmlFile {
     fn meshes(&self) -> &[MeshEntry] {
         &self.entries
+    }
+
+    fn attributes(&self, mesh: usize) -> Vec<AttributeInfo> {
+        let values = self.sets[mesh].slots.values.iter();
+        values.map(RoleValues::info).collect()
+    }
+
+    fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem> {
+        let set = &self.sets[mesh];
+        let mut values = set.slots.values.iter();
+        let values = values.find(|values| values.info() == *info);
+        let values = values.ok_or_else(|| no_attribute(info))?;
+        let reader = ValueReader {
+            text: &self.source,
+            polygons: &set.slots.polygons,
+            companions: &set.slots.companions,
+            shared: set.shared.and_then(|shared| self.shared[shared].as_ref()),
+            entry: &self.entries[mesh],
+            orders: &set.orders,
+        };
+        let read = reader.read(values);
+        let read = read.map_err(|fault| fault.on_its_line(&self.source))?;
+        Ok(Attribute::new(info.clone(), Values::F32(read)))
     }
 
     fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {

@@ -56,6 +56,11 @@ impl Role {
         self.names()[0]
     }
 
+    /// How many numbers an element has.
+    pub(super) fn components(self) -> usize {
+        if self == Self::TexCoord { 2 } else { 3 }
+    }
+
     /// The field of the face set that holds the indices.
     pub(super) fn index_field(self) -> &'static str {
         self.names()[3]

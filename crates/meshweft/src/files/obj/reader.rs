@@ -1,0 +1,346 @@
+//! Reading an OBJ file: where its records stand, and what keeps them there.
+
+use std::ops::Range;
+
+use super::attributes::{CornerValues, ObjAttributes};
+use super::statement::{Statements, attribute_numbers};
+use crate::files::error::Fault;
+use crate::files::face_records::{FaceRecords, check_vertex_count, past_the_last_vertex};
+use crate::files::options::ReadOptions;
+use crate::files::rewrite::is_coordinate;
+use crate::files::slots::Spans;
+use crate::files::text::{Tokens, is_blank, leading_number, shown, trimmed};
+use crate::index::index32;
+
+/// Statements that name no vertices (`v`, `f`, `l` and `p` are dealt with by themselves).
+const NAME_NO_VERTICES: [&[u8]; 19] = [
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"g",
+    b"lod",
+    b"maplib",
+    b"mg",
+    b"mtllib",
+    b"o",
+    b"s",
+    b"shadow_obj",
+    b"trace_obj",
+    b"usemap",
+    b"usemtl",
+    b"vn",
+    b"vp",
+    b"vt",
+    b"ctech",
+    b"stech",
+];
+
+/// The statements of a file, read one after the other.
+pub(super) struct ObjReader<'a> {
+    source: &'a [u8],
+    options: &'a ReadOptions,
+    pub(super) vertices: Spans,
+    pub(super) faces: Spans,
+    pub(super) records: FaceRecords,
+    pub(super) runs: Vec<u32>,
+    in_run: bool,
+    /// The `l` and `p` lines.
+    pub(super) lines: Spans,
+    /// The largest plain number that an `f`, `l` or `p` names.
+    largest: i64,
+    /// The text after the first `o`.
+    pub(super) name: Option<Range<usize>>,
+    /// Why the vertices cannot move, and where that was found.
+    pub(super) obstacle: Option<(usize, String)>,
+    /// The fewest and the most numbers that a `v` line has.
+    vertex_numbers: (usize, usize),
+    /// Texture coordinates and normals.
+    values: [SeenLines; 2],
+    /// How many corners there are, of records with faces.
+    corner_count: usize,
+    corners: Vec<u32>,
+}
+
+/// What the corners of a face name.
+#[derive(Default)]
+struct Named {
+    /// How many name a texture coordinate, and a normal.
+    counts: [usize; 2],
+    /// Whether one names the first of all texture coordinates.
+    first_texture: bool,
+}
+
+/// The `vt` or `vn` lines, as far as they are looked at.
+#[derive(Clone, Copy, Default)]
+struct SeenLines {
+    count: usize,
+    /// Where the first is.
+    first: usize,
+    /// How many texture coordinates have three numbers, if the first has; not counted otherwise.
+    with_three: usize,
+    /// Whether a face names the first.
+    is_first_named: bool,
+    /// Whether a face names one.
+    is_named: bool,
+    /// How many corners name one, of records with faces.
+    corners: usize,
+}
+
+impl<'a> ObjReader<'a> {
+    pub(super) fn new(source: &'a [u8], options: &'a ReadOptions) -> Self {
+        Self {
+            source,
+            options,
+            vertices: Spans::new(),
+            faces: Spans::new(),
+            records: FaceRecords::default(),
+            runs: Vec::new(),
+            in_run: false,
+            lines: Spans::new(),
+            largest: 0,
+            name: None,
+            obstacle: None,
+            vertex_numbers: (usize::MAX, 0),
+            values: [SeenLines::default(); 2],
+            corner_count: 0,
+            corners: Vec::new(),
+        }
+    }
+
+    /// Reads all statements.
+    pub(super) fn statements(&mut self) -> Result<(), Fault> {
+        for span in Statements::new(self.source) {
+            self.statement(span)?;
+        }
+        self.check_attributes();
+        Ok(())
+    }
+
+    fn statement(&mut self, span: Range<usize>) -> Result<(), Fault> {
+        let text = &self.source[..span.end];
+        let mut tokens = Tokens::of_statement(text, span.start);
+        // Continuation marks with nothing to continue.
+        let Some(keyword) = tokens.next() else {
+            return Ok(());
+        };
+
+        match &text[keyword.clone()] {
+            b"f" => return self.face(span, tokens),
+            b"v" => self.vertex(span, tokens)?,
+            b"l" | b"p" => self.line(span, tokens)?,
+            b"vt" => self.value(0, span.start, tokens),
+            b"vn" => self.value(1, span.start, tokens),
+            b"g" if self.options.across_groups => return Ok(()),
+            b"o" => {
+                let rest = trimmed(text, keyword.end, span.end);
+                let blanks = text[rest.clone()].iter().take_while(|&&b| is_blank(b));
+                let rest = rest.start + blanks.count()..rest.end;
+                if self.name.is_none() && !rest.is_empty() {
+                    self.name = Some(rest);
+                }
+                if self.options.across_groups {
+                    return Ok(());
+                }
+            }
+            other if NAME_NO_VERTICES.contains(&other) => {}
+            other if self.is_assumed_safe(other) => {}
+            other => {
+                let name = String::from_utf8_lossy(other);
+                if let Some(kind) = self.options.refusal("the statement", &name) {
+                    let at = span.start;
+                    return Err(Fault { at, kind });
+                }
+                let why = format!("the statement {} may name them", shown(other));
+                self.obstacle.get_or_insert((span.start, why));
+            }
+        }
+        self.in_run = false;
+        Ok(())
+    }
+
+    fn is_assumed_safe(&self, keyword: &[u8]) -> bool {
+        std::str::from_utf8(keyword).is_ok_and(|name| self.options.is_assumed_safe(name))
+    }
+
+    fn vertex(&mut self, span: Range<usize>, mut tokens: Tokens<'_>) -> Result<(), Fault> {
+        for found in 0..3 {
+            let token = tokens.next().ok_or_else(|| {
+                let vertex = self.vertices.len() + 1;
+                let text = format!("vertex {vertex} has {found} coordinates and needs 3");
+                Fault::malformed(span.start, text)
+            })?;
+            let token = &self.source[token];
+            if !is_coordinate(token) {
+                let text = format!("{} is not a coordinate: write a number", shown(token));
+                return Err(Fault::malformed(span.start, text));
+            }
+        }
+        let (fewest, most) = self.vertex_numbers;
+        let numbers = 3 + tokens.count();
+        self.vertex_numbers = (fewest.min(numbers), most.max(numbers));
+
+        let record = &self.source[span.clone()];
+        if record.ends_with(b"\\") && !record.contains(&b'#') {
+            // Before another line end it would swallow the line after it.
+            let text = "a \\ at the end that is not followed by a line end: remove it";
+            return Err(Fault::malformed(span.start, text));
+        }
+
+        if self.records.len() + self.lines.len() > 0 {
+            let why = "this one comes after faces, lines or points".to_owned();
+            self.obstacle.get_or_insert((span.start, why));
+        }
+
+        let at = span.start;
+        self.vertices
+            .push(span)
+            .map_err(|kind| Fault { at, kind })?;
+        check_vertex_count(self.vertices.len(), &self.options.limits)
+            .map_err(|kind| Fault { at, kind })
+    }
+
+    fn value(&mut self, which: usize, at: usize, mut tokens: Tokens<'_>) {
+        let seen = &mut self.values[which];
+        if seen.count == 0 {
+            seen.first = at;
+        }
+        seen.count += 1;
+        // Most files have two: the first tells, and the others need no look.
+        if which == 0 && (seen.count == 1 || seen.with_three > 0) {
+            seen.with_three += usize::from(tokens.nth(2).is_some());
+        }
+    }
+
+    fn face(&mut self, span: Range<usize>, tokens: Tokens<'_>) -> Result<(), Fault> {
+        let at = span.start;
+        let mut corners = std::mem::take(&mut self.corners);
+        corners.clear();
+        let mut named = Named::default();
+        for token in tokens {
+            let vertex = self.vertex_of_token(&self.source[token], &mut named);
+            corners.push(vertex.map_err(|text| {
+                let (face, corner) = (self.records.len(), corners.len());
+                Fault::malformed(at, format!("face {face}, corner {corner}: {text}"))
+            })?);
+        }
+        let has_faces = corners.len() > 2;
+        for (seen, named) in self.values.iter_mut().zip(named.counts) {
+            seen.is_named |= named > 0;
+            seen.corners += if has_faces { named } else { 0 };
+        }
+        self.values[0].is_first_named |= has_faces && named.first_texture;
+        self.corner_count += if has_faces { corners.len() } else { 0 };
+
+        if !self.in_run {
+            self.runs.push(index32(self.records.len()));
+            self.in_run = true;
+        }
+        let pushed = self.records.push(&corners, &self.options.limits);
+        self.corners = corners;
+        let pushed = pushed.and_then(|()| self.faces.push(span));
+        pushed.map_err(|kind| Fault { at, kind })
+    }
+
+    fn line(&mut self, span: Range<usize>, tokens: Tokens<'_>) -> Result<(), Fault> {
+        let at = span.start;
+        for token in tokens {
+            let vertex = self.vertex_of_token(&self.source[token], &mut Named::default());
+            vertex.map_err(|text| Fault::malformed(at, text))?;
+        }
+        self.lines.push(span).map_err(|kind| Fault { at, kind })
+    }
+
+    /// The vertex that `1`, `1/2`, `1//3`, `1/2/3` names, from 0; whether it exists is checked when
+    /// all vertices are known. Counts in `named` whether it names a texture coordinate and a normal.
+    #[inline]
+    fn vertex_of_token(&mut self, token: &[u8], named: &mut Named) -> Result<u32, String> {
+        let (number, length) = leading_number(token)
+            .ok_or_else(|| format!("{} is not a vertex number", shown(token)))?;
+        if length < token.len() {
+            let numbers = attribute_numbers(&token[length..])
+                .ok_or_else(|| format!("{} is not of the form 1/2/3", shown(token)))?;
+            for (count, number) in named.counts.iter_mut().zip(numbers) {
+                *count += usize::from(number.is_some());
+            }
+            named.first_texture |= numbers[0] == Some(1);
+        }
+
+        let vertex_count = self.vertices.len();
+        if number > 0 {
+            self.largest = self.largest.max(number);
+            // A number that does not fit is past the last vertex, and reported as that.
+            return Ok(u32::try_from(number - 1).unwrap_or(u32::MAX));
+        }
+        if number == 0 {
+            return Err("index 0: vertices are counted from 1 (or back from -1)".to_owned());
+        }
+        let back = usize::try_from(number.unsigned_abs()).unwrap_or(usize::MAX);
+        match vertex_count.checked_sub(back) {
+            Some(vertex) => Ok(index32(vertex)),
+            None => Err(format!(
+                "index {number} counts back past the first of the {vertex_count} vertices above it"
+            )),
+        }
+    }
+
+    /// Texture coordinates or normals that no face names, as many as vertices: some programs take
+    /// them as belonging to the vertices one by one, so these must not move.
+    fn check_attributes(&mut self) {
+        for (keyword, seen) in ["vt", "vn"].into_iter().zip(self.values) {
+            if seen.count > 0 && seen.count == self.vertices.len() && !seen.is_named {
+                let why = format!("as many {keyword} lines, named by no face, may belong to them");
+                self.obstacle.get_or_insert((seen.first, why));
+            }
+        }
+    }
+
+    /// What is stored with every vertex, and with every corner.
+    pub(super) fn attributes(&self) -> ObjAttributes {
+        let colors = match self.vertex_numbers {
+            (fewest @ 6..=7, 6..=7) => Some(fewest - 3),
+            _ => None,
+        };
+        let is_of_all = |seen: &SeenLines| {
+            seen.count > 0 && seen.corners > 0 && seen.corners == self.corner_count
+        };
+        let [texture, normals] = &self.values;
+        let components = || match texture.with_three {
+            0 if texture.is_first_named => 2,
+            three if three == texture.count => 3,
+            _ => CornerValues::TEXTURE
+                .fewest_named(self.source, &self.faces)
+                .clamp(2, 3),
+        };
+        ObjAttributes {
+            colors,
+            texture: is_of_all(texture).then(components),
+            has_normals: is_of_all(normals),
+        }
+    }
+
+    /// Whether all numbers name vertices: those below the face count too, so this is last.
+    pub(super) fn check_range(&self) -> Result<(), Fault> {
+        let count = self.vertices.len();
+        let past = |number: i64| usize::try_from(number).is_ok_and(|number| number > count);
+        if !past(self.largest) {
+            return Ok(());
+        }
+        let last = (count > 0).then_some(count);
+        for (spans, what) in [(&self.faces, "face"), (&self.lines, "line or point")] {
+            for record in 0..spans.len() {
+                let span = spans.span(record);
+                let text = &self.source[..span.end];
+                let tokens = Tokens::of_statement(text, span.start).skip(1);
+                for (corner, token) in tokens.enumerate() {
+                    let number = leading_number(&text[token]).map_or(0, |(number, _)| number);
+                    if past(number) {
+                        let at = span.start;
+                        let kind = past_the_last_vertex(what, record, corner, number, last);
+                        return Err(Fault { at, kind });
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
