@@ -288,9 +288,7 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
             cache::misses(entry.mesh.faces(), CacheModel::fifo(12))
         };
         let _ = (misses(entry), misses(&ordered));
-        let vertices = entry
-            .vertices_movable
-            .then(|| vertex_fetch(&ordered.mesh));
+        let vertices = entry.vertices_movable.then(|| vertex_fetch(&ordered.mesh));
         drop(ordered);
         document.apply(mesh, &faces, vertices.as_ref())?;
     }
