@@ -15,10 +15,14 @@
 //! At the end it prints the means with seeds that it was not tuned on, and the *spread*: how far each
 //! number alone may move before the mean grows by .001.
 //!
+//! A preset that computes numbers from the size of a cache has no such literals: what is printed then
+//! is their values for that size.
+//!
 //! The meshes are those of up to 25,000 faces that the presets were tuned on; `--all` takes all of
 //! them.
 
-use std::fmt;
+mod literal;
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -27,6 +31,8 @@ use meshweft::order::tuning::{self, LONGEST, NAMES, Numbers, WHOLE};
 use meshweft::order::{Effort, Target};
 use meshweft::{CacheModel, Mesh, cache};
 use rayon::prelude::*;
+
+use literal::{Literal, decimal};
 
 const SMALL_MESHES: [&str; 5] = [
     "cow.off.gz",
@@ -201,8 +207,8 @@ impl Tuning {
 
     /// Misses a face in each cache.
     fn figures(&self, faces: &[[u32; 3]]) -> Vec<f64> {
-        let models = self.target.models().iter();
-        models.map(|&model| cache::acmr(faces, model)).collect()
+        let acmr = |&model| cache::acmr(faces, model);
+        self.target.models().iter().map(acmr).collect()
     }
 
     /// The means over the seeds.
@@ -231,10 +237,11 @@ impl Tuning {
     }
 
     fn is_allowed(&self, score: &Score) -> bool {
-        let figures = score.figures.iter().flatten();
-        figures
-            .zip(self.allowed.iter().flatten())
-            .all(|(figure, most)| figure <= most)
+        let (figures, most) = (
+            score.figures.iter().flatten(),
+            self.allowed.iter().flatten(),
+        );
+        figures.zip(most).all(|(figure, most)| figure <= most)
     }
 
     /// The mean with each seed alone.
@@ -245,12 +252,18 @@ impl Tuning {
             .collect()
     }
 
+    /// Whether the target's search looks at a number: the longer windows are for two caches only.
+    fn is_used(&self, i: usize) -> bool {
+        let is_longer_window = (1..WHOLE).contains(&i);
+        self.start[i] != 0.0 && (!is_longer_window || self.target == Target::Universal)
+    }
+
     /// Some numbers changed, at least one.
     fn changed(&self, from: &Numbers, random: &mut Random) -> Numbers {
         loop {
             let mut numbers = *from;
             for (i, number) in numbers.iter_mut().enumerate() {
-                if random.below_one() < 0.25 && is_tuned(i) {
+                if random.below_one() < 0.25 && self.is_used(i) && !buys_with_time(i) {
                     let factor = MOST_CHANGE.powf(2.0 * random.below_one() - 1.0);
                     *number = moved(i, *number, factor, self.start[i]);
                 }
@@ -265,8 +278,7 @@ impl Tuning {
         println!("\n| number | value | mean grows by less than {TOLERATED} from | to |");
         println!("|---|--:|--:|--:|");
         for (i, (name, &value)) in NAMES.iter().zip(best).enumerate() {
-            let is_used = i == 0 || i >= WHOLE || self.target == Target::Universal;
-            if value == 0.0 || !is_used {
+            if !self.is_used(i) {
                 continue;
             }
             let limit = |is_up: bool| {
@@ -298,9 +310,9 @@ impl Tuning {
     }
 }
 
-/// Whether a round may change a number.
-fn is_tuned(i: usize) -> bool {
-    NAMES[i] != "horizon.margin"
+/// Whether it gives fewer misses for more time; a round then leaves it alone.
+fn buys_with_time(i: usize) -> bool {
+    NAMES[i] == "horizon.margin"
 }
 
 /// A number times a factor: whole ones by one at least, others in whole 1024ths, as presets keep
@@ -317,53 +329,6 @@ fn moved(i: usize, number: f64, factor: f64, start: f64) -> f64 {
         return whole.clamp(3.0, f64::from(LONGEST[i]));
     }
     (size.copysign(number) * 1024.0).round() / 1024.0
-}
-
-/// Four digits that mean the same 1024th: `fixed` cuts the rest off.
-fn decimal(number: f64) -> f64 {
-    ((number.abs() * 1e4 - 1e-6).ceil() / 1e4).copysign(number)
-}
-
-/// Numbers as they stand in `preset.rs`.
-struct Literal<'a>(&'a Numbers);
-
-impl fmt::Display for Literal<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let numbers = self.0;
-        let whole = |i: usize| numbers[i];
-        let fixed = |name: &str| {
-            let i = NAMES.iter().position(|other| *other == name);
-            format!("fixed({:?})", decimal(numbers[i.expect("a name")]))
-        };
-        let list = |names: &[&str]| {
-            let list: Vec<String> = names.iter().map(|name| fixed(name)).collect();
-            format!("[{}]", list.join(", "))
-        };
-
-        writeln!(
-            f,
-            "    {}, [{}, {}, {}],",
-            whole(0),
-            whole(1),
-            whole(2),
-            whole(3)
-        )?;
-        let missing = list(&["weights.missing[0]", "weights.missing[1]"]);
-        writeln!(f, "    Weights {{ missing: {missing},")?;
-        for name in ["live", "age", "late", "outside", "outside_age"] {
-            writeln!(f, "        {name}: {},", fixed(&format!("weights.{name}")))?;
-        }
-        let exits = list(&["score.exits[0]", "score.exits[1]"]);
-        let windows = list(&["score.windows[0]", "score.windows[1]", "score.windows[2]"]);
-        writeln!(
-            f,
-            "    }},\n    Score {{ exits: {exits}, windows: {windows},"
-        )?;
-        let [face, age] = ["score.face", "score.age"].map(fixed);
-        writeln!(f, "        face: {face}, age: {age} }},")?;
-        let [noise, margin] = ["horizon.noise", "horizon.margin"].map(fixed);
-        write!(f, "    Horizon {{ noise: {noise}, margin: {margin}, … }},")
-    }
 }
 
 fn mean(figures: &[f64]) -> f64 {
