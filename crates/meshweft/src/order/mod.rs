@@ -19,6 +19,9 @@ mod vertex_fetch;
 pub use grid::Grid;
 pub use k_cache_reorder::{KCacheReorder, Mode};
 pub use optimizer::Optimizer;
+#[cfg(feature = "tuning")]
+#[doc(hidden)]
+pub use search::tuning;
 pub use target::{Effort, ParseTargetError, Target};
 pub use turn_corners::turn_corners;
 pub use vertex_fetch::vertex_fetch;

@@ -25,6 +25,8 @@ mod rollout;
 mod settings;
 mod slabs;
 mod state;
+#[cfg(feature = "tuning")]
+pub mod tuning;
 
 pub(super) use parts::Search;
 pub(super) use preset::lru_as_fifo;
