@@ -30,7 +30,7 @@ fn main() {
         let document = open(bytes.clone());
         assert_eq!(document.meshes().len(), 1, "{name}");
         group.bench_function(BenchmarkId::new("to_bytes", format), |bencher| {
-            bencher.iter(|| document.to_bytes(path).expect("it was read"));
+            bencher.iter(|| document.to_main_bytes().expect("it was read"));
         });
     }
     group.finish();

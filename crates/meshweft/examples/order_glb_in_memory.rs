@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut document =
         Document::from_bytes(bytes.clone(), Format::Glb, name, ReadOptions::default())?;
     let report = optimize(&mut document, &Options::default(), &())?;
-    let ordered = document.to_bytes(name)?;
+    let ordered = document.to_main_bytes()?;
 
     println!("{} bytes in, {} bytes out", bytes.len(), ordered.len());
     assert!(report.is_changed() && ordered.len() == bytes.len() && ordered != bytes);
