@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
 use super::entry::MeshEntry;
-use super::error::{FileErrorKind, Place, Problem};
+use super::error::Problem;
 use super::note::Note;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -19,16 +19,10 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     /// The meshes, kept up to date by `apply`.
     fn meshes(&self) -> &[MeshEntry];
     /// What is stored with the vertices, corners and faces of a mesh; nothing is decoded for it.
-    fn attributes(&self, _mesh: usize) -> Vec<AttributeInfo> {
-        Vec::new()
-    }
+    fn attributes(&self, mesh: usize) -> Vec<AttributeInfo>;
     /// The values of an attribute that [`attributes`](Self::attributes) lists, in the order in which
     /// vertices and faces now are.
-    fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem> {
-        let _ = mesh;
-        let text = format!("this mesh has no attribute {}", info.semantic);
-        Err(FileErrorKind::unsupported(text).at(Place::File))
-    }
+    fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem>;
     /// Permutes records; the caller has checked the lengths.
     fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>);
     /// Every file to write when the document goes there, the main one last.

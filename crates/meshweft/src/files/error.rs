@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::format::Format;
 use super::text::line_of;
+use crate::attribute::AttributeInfo;
 
 /// Why a file could not be read, changed or written.
 #[derive(Debug)]
@@ -137,6 +138,15 @@ impl Fault {
     pub(super) fn on_its_line(self, source: &[u8]) -> Problem {
         self.kind.at(Place::Line(line_of(source, self.at)))
     }
+}
+
+/// The error for an attribute that a mesh does not have.
+pub(super) fn no_attribute(info: &AttributeInfo) -> Problem {
+    let text = format!(
+        "this mesh has no attribute {}: take one of those that are listed",
+        info.semantic
+    );
+    FileErrorKind::unsupported(text).at(Place::File)
 }
 
 impl fmt::Display for FileError {

@@ -4,10 +4,10 @@
 use std::ops::Range;
 
 use super::entry::MeshEntry;
-use super::error::{FileErrorKind, Place, Problem};
+use super::error::{Problem, no_attribute};
 use super::orders::{RecordOrders, record_in};
 use super::slots::Spans;
-use super::text::{coordinate, leading_number, push_number};
+use super::text::{leading_number, push_number};
 use crate::attribute::{Attribute, AttributeInfo};
 
 /// What happens to the corners of a face.
@@ -151,36 +151,6 @@ pub(super) fn fan(count: usize, rotation: usize) -> impl Iterator<Item = usize> 
     corners.map(move |corner| change.turned(corner, count))
 }
 
-/// Whether `token` is a [`coordinate`]; the usual ones are told without working out the number.
-#[inline]
-pub(super) fn is_coordinate(token: &[u8]) -> bool {
-    let digits = |from: usize| {
-        let rest = token[from..].iter();
-        rest.take_while(|byte| byte.is_ascii_digit()).count()
-    };
-    let mut at = usize::from(matches!(token.first(), Some(b'-' | b'+')));
-    let mut found = digits(at);
-    at += found;
-    if token.get(at) == Some(&b'.') {
-        let after = digits(at + 1);
-        at += 1 + after;
-        found += after;
-    }
-    if found > 0 && matches!(token.get(at), Some(b'e' | b'E')) {
-        let sign = usize::from(matches!(token.get(at + 1), Some(b'-' | b'+')));
-        let exponent = digits(at + 1 + sign);
-        at += 1 + sign + exponent;
-        found = exponent;
-    }
-    (found > 0 && at == token.len()) || coordinate(token).is_some()
-}
-
-/// The error for an attribute that a mesh does not have.
-pub(super) fn no_attribute(info: &AttributeInfo) -> Problem {
-    let text = format!("this mesh has no attribute {}", info.semantic);
-    FileErrorKind::unsupported(text).at(Place::File)
-}
-
 /// How a format writes the corners of a face record, and reads what is stored in records.
 pub(super) trait Notation: Send + Sync {
     /// Appends a face record with its corners changed.
@@ -209,34 +179,6 @@ pub(super) trait Notation: Send + Sync {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_is_a_coordinate_is_what_parses() {
-        let alphabet = b"+-.0e7Enaif ";
-        let mut tokens = vec![Vec::new()];
-        for from in 0.. {
-            let Some(token) = tokens.get(from).cloned() else {
-                break;
-            };
-            let parses = coordinate(&token).is_some();
-            assert_eq!(is_coordinate(&token), parses, "{:?}", token.escape_ascii());
-            if token.len() < 5 {
-                let longer = |&byte: &u8| [token.as_slice(), &[byte]].concat();
-                tokens.extend(alphabet.iter().map(longer));
-            }
-        }
-        for token in [
-            "infinity",
-            "-Infinity",
-            "1e9999",
-            "0.00000000000000000001e-50",
-            "1e+-3",
-            "1f",
-        ] {
-            let token = token.as_bytes();
-            assert_eq!(is_coordinate(token), coordinate(token).is_some());
-        }
-    }
 
     #[test]
     fn corners_of_a_fan_are_turned_as_those_of_a_triangle() {

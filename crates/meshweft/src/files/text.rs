@@ -141,6 +141,30 @@ pub(super) fn coordinate(token: &[u8]) -> Option<f32> {
     std::str::from_utf8(token).ok()?.parse().ok()
 }
 
+/// Whether `token` is a [`coordinate`]; the usual ones are told without working out the number.
+#[inline]
+pub(super) fn is_coordinate(token: &[u8]) -> bool {
+    let digits = |from: usize| {
+        let rest = token[from..].iter();
+        rest.take_while(|byte| byte.is_ascii_digit()).count()
+    };
+    let mut at = usize::from(matches!(token.first(), Some(b'-' | b'+')));
+    let mut found = digits(at);
+    at += found;
+    if token.get(at) == Some(&b'.') {
+        let after = digits(at + 1);
+        at += 1 + after;
+        found += after;
+    }
+    if found > 0 && matches!(token.get(at), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(token.get(at + 1), Some(b'-' | b'+')));
+        let exponent = digits(at + 1 + sign);
+        at += 1 + sign + exponent;
+        found = exponent;
+    }
+    (found > 0 && at == token.len()) || coordinate(token).is_some()
+}
+
 /// Appends `number` in decimal digits.
 #[inline]
 pub(super) fn push_number(out: &mut Vec<u8>, mut number: u64) {
@@ -190,6 +214,34 @@ mod tests {
         assert_eq!(whole_number(b"+3"), Some(3));
         for bad in [b"" as &[u8], b"-", b"1X", b"1.0", b"9223372036854775808"] {
             assert_eq!(whole_number(bad), None);
+        }
+    }
+
+    #[test]
+    fn what_is_a_coordinate_is_what_parses() {
+        let alphabet = b"+-.0e7Enaif ";
+        let mut tokens = vec![Vec::new()];
+        for from in 0.. {
+            let Some(token) = tokens.get(from).cloned() else {
+                break;
+            };
+            let parses = coordinate(&token).is_some();
+            assert_eq!(is_coordinate(&token), parses, "{:?}", token.escape_ascii());
+            if token.len() < 5 {
+                let longer = |&byte: &u8| [token.as_slice(), &[byte]].concat();
+                tokens.extend(alphabet.iter().map(longer));
+            }
+        }
+        for token in [
+            "infinity",
+            "-Infinity",
+            "1e9999",
+            "0.00000000000000000001e-50",
+            "1e+-3",
+            "1f",
+        ] {
+            let token = token.as_bytes();
+            assert_eq!(is_coordinate(token), coordinate(token).is_some());
         }
     }
 

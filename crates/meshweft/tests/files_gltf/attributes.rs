@@ -277,7 +277,7 @@ fn what_is_not_listed_cannot_be_read() {
     let error = document.attribute(0, &wanted).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "scene.glb: this mesh has no attribute NORMAL"
+        "scene.glb: this mesh has no attribute NORMAL: take one of those that are listed"
     );
 }
 

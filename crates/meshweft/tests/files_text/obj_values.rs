@@ -172,7 +172,10 @@ fn bad_obj_values_say_where_they_are() {
     let mut info = document.attributes(0).remove(0);
     info.components = 2;
     let error = document.attribute(0, &info).unwrap_err().to_string();
-    assert_eq!(error, "mesh.obj: this mesh has no attribute POSITION");
+    assert_eq!(
+        error,
+        "mesh.obj: this mesh has no attribute POSITION: take one of those that are listed"
+    );
 }
 
 /// Every attribute of a spoilt file is read or refused.

@@ -164,6 +164,6 @@ fn what_is_no_number_is_told_when_it_is_read() {
     let other = error(&of_vertices(Semantic::Tangent, 4));
     assert_eq!(
         other.to_string(),
-        "mesh.off: this mesh has no attribute TANGENT"
+        "mesh.off: this mesh has no attribute TANGENT: take one of those that are listed"
     );
 }

@@ -96,6 +96,6 @@ fn a_normal_that_is_no_number_is_told_when_it_is_read() {
     let error = document.attribute(0, &bytes()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "mesh.stl: this mesh has no attribute attribute"
+        "mesh.stl: this mesh has no attribute attribute: take one of those that are listed"
     );
 }

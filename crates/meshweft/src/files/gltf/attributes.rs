@@ -12,7 +12,7 @@ use super::json::{Value, string_at};
 use super::movable::PrimitiveNumber;
 use super::object::Object;
 use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
-use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::error::{Problem, no_attribute};
 use crate::index::index32;
 
 /// What is stored with the vertices of each mesh.
@@ -97,8 +97,7 @@ impl Attributes {
             named.morph_target == info.morph_target && self.info(named, json) == *info
         });
         let Some(found) = found else {
-            let text = format!("this mesh has no attribute {}", info.semantic);
-            return Err(FileErrorKind::unsupported(text).at(Place::File));
+            return Err(no_attribute(info));
         };
         let values = self.elements_of(found).values(buffers, vertex_count)?;
         Ok(Attribute::new(info.clone(), values))

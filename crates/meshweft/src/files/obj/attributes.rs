@@ -5,8 +5,9 @@ use std::ops::Range;
 
 use super::statement::{Statements, attribute_numbers};
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
+use crate::files::error::no_attribute;
 use crate::files::error::{Fault, Problem};
-use crate::files::rewrite::{StoredMesh, fan, no_attribute};
+use crate::files::rewrite::{StoredMesh, fan};
 use crate::files::slots::Spans;
 use crate::files::text::{Tokens, coordinate, leading_number, shown};
 

@@ -7,8 +7,8 @@ use super::statement::{Statements, attribute_numbers};
 use crate::files::error::Fault;
 use crate::files::face_records::{FaceRecords, check_vertex_count, past_the_last_vertex};
 use crate::files::options::ReadOptions;
-use crate::files::rewrite::is_coordinate;
 use crate::files::slots::Spans;
+use crate::files::text::is_coordinate;
 use crate::files::text::{Tokens, is_blank, leading_number, shown, trimmed};
 use crate::index::index32;
 

@@ -69,7 +69,7 @@ fn byte(token: &[u8]) -> Option<u8> {
 
 /// An attribute and where its numbers stand on a line.
 #[derive(Debug)]
-pub(super) struct Column {
+pub(super) struct OffColumn {
     pub(super) info: AttributeInfo,
     /// How many numbers stand before it; of a face, after its corners.
     skipped: usize,
@@ -82,13 +82,13 @@ pub(super) fn columns(
     header: &OffHeader,
     of_vertices: &ColourColumns,
     of_faces: &ColourColumns,
-) -> Vec<Column> {
-    let of_vertex = |semantic, components, skipped, numbers: usize| Column {
+) -> Vec<OffColumn> {
+    let of_vertex = |semantic, components, skipped, numbers: usize| OffColumn {
         info: AttributeInfo::new(semantic, Domain::Vertex, components, ComponentType::F32),
         skipped,
         stored: numbers.min(components),
     };
-    let of_colours = |info: AttributeInfo, skipped| Column {
+    let of_colours = |info: AttributeInfo, skipped| OffColumn {
         stored: info.components,
         info,
         skipped,
@@ -119,7 +119,7 @@ pub(super) fn columns(
     columns
 }
 
-impl Column {
+impl OffColumn {
     /// The values, in the order in which vertices and faces now are.
     pub(super) fn read(&self, stored: &StoredMesh<'_>) -> Result<Attribute, Problem> {
         let values = match self.info.component_type {

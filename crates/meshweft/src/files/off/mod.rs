@@ -23,21 +23,21 @@ use std::ops::Range;
 
 use super::content::ReadResult;
 use super::entry::MeshEntry;
+use super::error::no_attribute;
 use super::error::{FileErrorKind, Place, Problem};
 use super::face_records::{FaceRecords, corner_vertex};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::RecordOrders;
 use super::record_file::RecordFile;
-use super::rewrite::{
-    Notation, Rewrite, StoredMesh, is_coordinate, no_attribute, vertex_from_zero,
-};
+use super::rewrite::{Notation, Rewrite, StoredMesh, vertex_from_zero};
 use super::slots::Spans;
+use super::text::is_coordinate;
 use super::text::{Tokens, shown, whole_number};
 use crate::Mesh;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::limits::Limits;
-use columns::{ColourColumns, Column};
+use columns::{ColourColumns, OffColumn};
 use header::OffHeader;
 use lines::Lines;
 
@@ -211,7 +211,7 @@ fn face_corners<'a>(
 
 /// How corners stand in face lines: after their number. And what else lines hold.
 struct OffNotation {
-    columns: Vec<Column>,
+    columns: Vec<OffColumn>,
 }
 
 impl Notation for OffNotation {

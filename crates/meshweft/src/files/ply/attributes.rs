@@ -7,8 +7,9 @@ use super::header::{Element, Encoding, PropertyKind, Scalar};
 use super::number::PlyNumber;
 use super::rows::{Ascii, Binary, PlyRows, Row};
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
+use crate::files::error::no_attribute;
 use crate::files::error::{Fault, Place, Problem};
-use crate::files::rewrite::{StoredMesh, fan, no_attribute};
+use crate::files::rewrite::{StoredMesh, fan};
 use crate::files::text::line_of;
 
 /// Properties that are colors together, the last may be missing.

@@ -3,7 +3,7 @@
 use super::header::{Element, Property, PropertyKind, Scalar};
 use super::number::PlyNumber;
 use crate::files::error::{Fault, FileErrorKind};
-use crate::files::rewrite::is_coordinate;
+use crate::files::text::is_coordinate;
 use crate::files::text::{Tokens, is_blank, is_line_end, shown, whole_number};
 
 /// The row that is being read, for errors.

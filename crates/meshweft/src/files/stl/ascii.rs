@@ -7,9 +7,10 @@ use std::ops::Range;
 use super::attributes::{normal, position, positions};
 use super::facets::Facets;
 use crate::attribute::{Attribute, AttributeInfo, Values};
+use crate::files::error::no_attribute;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
-use crate::files::rewrite::{Notation, PlacedFace, Rewrite, StoredMesh, no_attribute};
+use crate::files::rewrite::{Notation, PlacedFace, Rewrite, StoredMesh};
 use crate::files::slots::Spans;
 use crate::files::text::{
     Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,

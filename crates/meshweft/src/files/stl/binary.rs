@@ -3,9 +3,10 @@
 use super::attributes::{self, attribute_bytes, normal, position};
 use super::facets::Facets;
 use crate::attribute::{Attribute, AttributeInfo, Values};
+use crate::files::error::no_attribute;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
-use crate::files::rewrite::{Notation, Rewrite, StoredMesh, no_attribute};
+use crate::files::rewrite::{Notation, Rewrite, StoredMesh};
 use crate::files::slots::Spans;
 use crate::limits::Limits;
 

@@ -15,12 +15,12 @@ use crate::files::slots::Spans;
 pub(super) struct RoleValues {
     role: Role,
     list: List,
-    elements: Elements,
+    elements: PlacedElements,
 }
 
 /// Which element of a list belongs to what.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Elements {
+pub(super) enum PlacedElements {
     /// The first to the first vertex.
     Vertices,
     /// To corners, as the polygons of the indices with this number name them.
@@ -32,7 +32,7 @@ pub(super) enum Elements {
 }
 
 impl RoleValues {
-    pub(super) fn new(role: Role, list: &List, elements: Elements) -> Self {
+    pub(super) fn new(role: Role, list: &List, elements: PlacedElements) -> Self {
         let list = list.clone();
         Self {
             role,
@@ -49,9 +49,9 @@ impl RoleValues {
             Role::TexCoord => Semantic::TexCoord(0),
         };
         let domain = match self.elements {
-            Elements::Vertices => Domain::Vertex,
-            Elements::Corners(_) => Domain::Corner,
-            Elements::Faces | Elements::FaceIndices(_) => Domain::Face,
+            PlacedElements::Vertices => Domain::Vertex,
+            PlacedElements::Corners(_) => Domain::Corner,
+            PlacedElements::Faces | PlacedElements::FaceIndices(_) => Domain::Face,
         };
         AttributeInfo::new(semantic, domain, self.role.components(), ComponentType::F32)
     }
@@ -97,17 +97,19 @@ impl ValueReader<'_> {
         };
 
         match values.elements {
-            Elements::Vertices if self.shared.is_some() => self.used()?.into_iter().for_each(add),
-            Elements::Vertices => {
+            PlacedElements::Vertices if self.shared.is_some() => {
+                self.used()?.into_iter().for_each(add)
+            }
+            PlacedElements::Vertices => {
                 let vertices = 0..self.entry.mesh.vertex_count();
                 let records = vertices.map(|vertex| record_in(&self.orders.vertices, vertex));
                 records.for_each(add);
             }
-            Elements::Corners(polygons) => {
+            PlacedElements::Corners(polygons) => {
                 self.each_corner(&self.polygons[polygons], role, count, add)?;
             }
-            Elements::Faces => self.each_face(Ok, add)?,
-            Elements::FaceIndices(companion) => {
+            PlacedElements::Faces => self.each_face(Ok, add)?,
+            PlacedElements::FaceIndices(companion) => {
                 let spans = &self.companions[companion];
                 let element = |record| {
                     let span = spans.span(record);

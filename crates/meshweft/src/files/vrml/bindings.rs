@@ -1,6 +1,6 @@
 //! What moves with the faces and vertices of a face set, and what keeps it from moving.
 
-use super::attributes::{Elements, RoleValues, used_vertices};
+use super::attributes::{PlacedElements, RoleValues, used_vertices};
 use super::lexer::index;
 use super::lists::{self, Groups, Polygons};
 use super::scene::{Child, FaceSet, List, Role, Scene};
@@ -142,7 +142,7 @@ impl Binder<'_> {
             }
         };
         let mesh = mesh.map_err(malformed)?;
-        let position = RoleValues::new(Role::Coord, points, Elements::Vertices);
+        let position = RoleValues::new(Role::Coord, points, PlacedElements::Vertices);
         slots.values.insert(0, position);
         vertices_stay = obstacle.or(vertices_stay);
 
@@ -263,8 +263,8 @@ impl Binder<'_> {
         }
         if let Child::Own(_, list) = child {
             let elements = match numbers_each {
-                1 => Elements::FaceIndices(slots.companions.len()),
-                _ => Elements::Faces,
+                1 => PlacedElements::FaceIndices(slots.companions.len()),
+                _ => PlacedElements::Faces,
             };
             slots.values.push(RoleValues::new(role, list, elements));
         }
@@ -290,7 +290,7 @@ impl Binder<'_> {
                 return stays(format!("its {field} has other faces than coordIndex"));
             };
             if let Child::Own(_, list) = child {
-                let elements = Elements::Corners(slots.polygons.len());
+                let elements = PlacedElements::Corners(slots.polygons.len());
                 slots.values.push(RoleValues::new(role, list, elements));
             }
             slots.polygons.push(spans);
@@ -302,7 +302,7 @@ impl Binder<'_> {
         if let Child::Own(_, list) = child
             && list.count >= vertex_count * numbers_each
         {
-            let values = RoleValues::new(role, list, Elements::Vertices);
+            let values = RoleValues::new(role, list, PlacedElements::Vertices);
             slots.values.push(values);
         }
         match child {

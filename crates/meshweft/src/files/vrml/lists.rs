@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::lexer::{Lexer, index};
 use super::scene::List;
 use crate::files::error::Fault;
-use crate::files::rewrite::is_coordinate;
 use crate::files::slots::Spans;
+use crate::files::text::is_coordinate;
 use crate::files::text::{coordinate, shown};
 
 /// Where the points of a list stand, three numbers each, after looking whether they are coordinates.

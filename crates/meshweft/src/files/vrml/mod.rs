@@ -32,11 +32,12 @@ use std::{fmt, io};
 
 use super::content::{Content, Destination, OutputFile, ReadResult};
 use super::entry::MeshEntry;
+use super::error::no_attribute;
 use super::error::{FileErrorKind, Place, Problem};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::{RecordOrders, record_in};
-use super::rewrite::{Change, Rewrite, no_attribute};
+use super::rewrite::{Change, Rewrite};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
 use super::text::is_line_end;
