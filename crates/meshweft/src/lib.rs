@@ -19,6 +19,21 @@
 //! # Ok::<(), meshweft::MeshError>(())
 //! ```
 //!
+//! A file, every other byte kept (feature `files`):
+//!
+//! ```no_run
+//! # #[cfg(feature = "files")]
+//! # fn order() -> Result<(), Box<dyn std::error::Error>> {
+//! use meshweft::files::{Document, ReadOptions};
+//! use meshweft::operations::{Options, optimize};
+//!
+//! let mut document = Document::open("scene.glb".as_ref(), ReadOptions::default())?;
+//! let report = optimize(&mut document, &Options::default(), &())?;
+//! document.write("ordered.glb".as_ref())?;
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! Values go in, values come out: plain arrays, one struct an algorithm whose public fields are
 //! named as in its paper, and orders as values ([`FaceOrder`], [`VertexOrder`]) that say which way
 //! they are read. Whatever takes faces takes a [`Mesh`], a slice of triples, or [`Faces`], checked

@@ -132,3 +132,19 @@ fn each_folder_opens_with_what_it_is() {
     }
     assert!(folders >= 3);
 }
+
+/// A reader of the front page sees how to order indices, order a file and count misses without
+/// scrolling.
+#[test]
+fn the_front_page_shows_the_three_calls_first() {
+    let front = std::fs::read_to_string(folder("meshweft/src/lib.rs")).unwrap();
+    let first: Vec<&str> = front.lines().take(60).collect();
+    let first: Vec<&str> = first
+        .into_iter()
+        .filter(|line| line.starts_with("//!"))
+        .collect();
+    let first = first.join("\n");
+    for call in ["optimize_indices(", " optimize(", "acmr("] {
+        assert!(first.contains(call), "{call}");
+    }
+}
