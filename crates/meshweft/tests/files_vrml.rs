@@ -98,19 +98,7 @@ fn check(text: &str, seed: u64) {
         let mut wanted = before.clone();
         for mesh in 0..count {
             let entry = document.meshes()[mesh].clone();
-            let records = entry.record_count();
-            let ends = entry.runs.iter().skip(1).map(|&end| end as usize);
-            let runs = entry.runs.iter().zip(ends.chain([records]));
-            let order = runs.flat_map(|(&start, end)| random.shuffled(start as usize, end));
-            let order = Permutation::new(order.collect()).unwrap();
-            let rotations = match entry.corners_turnable {
-                true => (0..records).map(|_| random.below(3) as u8).collect(),
-                false => Vec::new(),
-            };
-            let order = FaceOrder::new(order, rotations).unwrap();
-            let vertices = random.shuffled(0, entry.mesh.vertex_count());
-            let vertices = VertexOrder::from(Permutation::new(vertices).unwrap());
-            let vertices = entry.vertices_movable.then_some(vertices);
+            let (order, vertices) = values::orders(&mut random, &entry);
             document.apply(mesh, &order, vertices.as_ref()).unwrap();
             // Entries come in the order of the file; those that stay have no entry.
             let place = before.entries[mesh];

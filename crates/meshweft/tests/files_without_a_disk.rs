@@ -1,4 +1,4 @@
-//! A `.gltf` and its buffer from memory to memory, where there is no disk to speak of.
+//! A `.gltf` and its buffer read from memory and written to memory, without a disk.
 //!
 //! A test of its own program, because it moves the working folder.
 #![cfg(feature = "files")]

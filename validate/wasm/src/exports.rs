@@ -35,7 +35,7 @@ pub extern "C" fn panic_text_bytes() -> usize {
     PANIC.lock().unwrap_or_else(PoisonError::into_inner).len()
 }
 
-/// Zeroed memory of at least so many bytes, aligned for any index; [`release`] takes it back.
+/// Zeroed memory of at least that many bytes, aligned for any index; [`release`] takes it back.
 // Not `malloc` and `free`: natively these names are taken.
 #[unsafe(no_mangle)]
 pub extern "C" fn allocate(bytes: usize) -> *mut u64 {
@@ -50,7 +50,7 @@ pub extern "C" fn allocate(bytes: usize) -> *mut u64 {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn release(memory: *mut u64, bytes: usize) {
     let slice = slice_from_raw_parts_mut(memory, words(bytes));
-    // SAFETY: it was a box of so many words, which `allocate` gave away.
+    // SAFETY: it was a box of that many words, which `allocate` gave away.
     drop(unsafe { Box::from_raw(slice) });
 }
 
@@ -64,7 +64,7 @@ macro_rules! optimize_export {
         /// [`optimize`](crate::optimize) where the indices are; the status as a number.
         ///
         /// # Safety
-        /// So many indices are at `indices` and so many bytes at `target`, and nobody else uses
+        /// That many indices are at `indices` and that many bytes at `target`, and nobody else uses
         /// them during the call.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(
@@ -103,7 +103,7 @@ optimize_export!(optimize_u32, u32);
 /// [`misses`](crate::misses) of indices of 32 bits.
 ///
 /// # Safety
-/// So many indices are at `indices` and so many bytes at `cache`, and nobody changes them
+/// That many indices are at `indices` and that many bytes at `cache`, and nobody changes them
 /// during the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn misses(
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn misses(
     crate::misses(indices, vertex_count, cache)
 }
 
-/// The text there; empty if it is no UTF-8.
+/// The text there; empty if it is not UTF-8.
 ///
 /// # Safety
 /// So many bytes are at `text`, and nobody changes them as long as the result is used.

@@ -11,7 +11,7 @@ use meshweft::{Budget, CacheModel, Faces, MeshError, cache};
 
 /// Flag: corners are not turned.
 pub const KEEP_CORNERS: u32 = 1;
-/// Flag: vertices are numbered anew.
+/// Flag: vertices are renumbered.
 pub const RENUMBER_VERTICES: u32 = 2;
 /// As many steps mean that there is no budget.
 pub const UNLIMITED: u64 = u64::MAX;

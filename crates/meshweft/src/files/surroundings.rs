@@ -88,7 +88,7 @@ impl<'a> Surroundings<'a> {
     }
 }
 
-/// How many bytes these are, if a file may have so many.
+/// How many bytes these are, if a file may have that many.
 pub(super) fn check_size(bytes: &[u8], limits: &Limits) -> Result<u64, FileErrorKind> {
     let (found, limit) = (bytes.len() as u64, limits.file_bytes);
     match found > limit {

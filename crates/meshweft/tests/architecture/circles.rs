@@ -140,7 +140,7 @@ fn a_folder_and_its_child_can_be_a_circle() {
 #[test]
 fn no_circle_is_seen_where_none_is() {
     let files = [
-        // Showing what is below is no use of it.
+        // Showing what is below does not use it.
         ("lib.rs", "mod room;\nmod other;\npub use room::{A, B};"),
         (
             "room/mod.rs",

@@ -48,7 +48,7 @@ pub(crate) fn paths(code: &str) -> Vec<Path> {
             use_tree(&tokens, &mut at, &[], is_public, &mut paths);
             continue;
         }
-        // Whom an item is shown to is no use of it.
+        // Saying who may see an item does not use it.
         if at > 1 && tokens[at] == "in" && tokens[at - 2..at] == ["pub", "("] {
             at += tokens[at..]
                 .iter()

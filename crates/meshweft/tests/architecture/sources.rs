@@ -42,7 +42,7 @@ impl Sources {
             test_modules.extend(tests);
             kept.push(source);
         }
-        // What is declared for tests only is no part of the crate, nor is what is below.
+        // What is declared for tests only is not part of the crate, and neither is what is below.
         kept.retain(|source| {
             let is_test = |test: &Vec<String>| source.module.starts_with(test);
             !test_modules.iter().any(is_test)

@@ -76,7 +76,7 @@ fn values_of_lines_follow_their_order() {
         ]
     );
     check_vertices(&document, [0, 1, 2, 3]);
-    // The line with two corners is no face, the one with four is two.
+    // The line with two corners is not a face, the one with four is two faces.
     let (quad, triangle) = ([1.0, 0.0, 0.0], [0.25, 1.0, 0.0]);
     let expected = Values::F32([quad, quad, triangle].concat());
     assert_eq!(values(&document, &face_colors), expected);

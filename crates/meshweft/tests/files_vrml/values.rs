@@ -6,7 +6,8 @@ use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 use super::follow::{all, assert_follow, assert_same, listed, values};
 use super::{BINDINGS, Random, SHARING, data, face_set, open, written};
 
-fn orders(random: &mut Random, entry: &MeshEntry) -> (FaceOrder, Option<VertexOrder>) {
+/// Random orders of all that may move in a face set.
+pub(super) fn orders(random: &mut Random, entry: &MeshEntry) -> (FaceOrder, Option<VertexOrder>) {
     let records = entry.record_count();
     let ends = entry.runs.iter().skip(1).map(|&end| end as usize);
     let runs = entry.runs.iter().zip(ends.chain([records]));
