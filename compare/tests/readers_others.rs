@@ -8,7 +8,7 @@ use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use meshweft::Limits;
-use meshweft::files::{Document, Format};
+use meshweft::files::{Document, Edit, Format};
 use meshweft::order::{KCacheReorder, vertex_fetch};
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
@@ -204,7 +204,13 @@ fn reordered(file: &Path) -> Vec<u8> {
         // Vertices that several meshes share would need an order for all of them.
         let movable = entry.vertices_movable && members.count() == 1;
         let vertices = movable.then(|| vertex_fetch(&entry.mesh));
-        document.apply(mesh, &faces, vertices.as_ref()).unwrap();
+        document
+            .edit(Edit::Order {
+                mesh,
+                faces: Some(&faces),
+                vertices: vertices.as_ref(),
+            })
+            .unwrap();
     }
     document.to_main_bytes().unwrap()
 }

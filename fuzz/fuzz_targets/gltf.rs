@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::files::{Document, Format};
+use meshweft::files::{Document, Edit, Format};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 
 fuzz_target!(|data: &[u8]| {
@@ -31,7 +31,11 @@ fn check(data: &[u8], format: Format, path: &Path) {
             .vertices_movable
             .then(|| VertexOrder::from(reversed(entry.mesh.vertex_count())));
         document
-            .apply(mesh, &faces, vertices.as_ref())
+            .edit(Edit::Order {
+                mesh,
+                faces: Some(&faces),
+                vertices: vertices.as_ref(),
+            })
             .expect("the orders have the right lengths");
         assert_eq!(before, triangles(&document, mesh));
     }

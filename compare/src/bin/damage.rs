@@ -17,7 +17,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use compare::counting::{Counting, with_peak};
-use meshweft::files::{Document, FileError, FileErrorKind, Format, Place, Surroundings};
+use meshweft::files::{Document, Edit, FileError, FileErrorKind, Format, Place, Surroundings};
 use meshweft::order::{KCacheReorder, vertex_fetch};
 use meshweft::{CacheModel, Limits, cache};
 
@@ -291,7 +291,11 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
         let _ = (misses(entry), misses(&ordered));
         let vertices = entry.vertices_movable.then(|| vertex_fetch(&ordered.mesh));
         drop(ordered);
-        document.apply(mesh, &faces, vertices.as_ref())?;
+        document.edit(Edit::Order {
+            mesh,
+            faces: Some(&faces),
+            vertices: vertices.as_ref(),
+        })?;
     }
     document.to_main_bytes()?;
     Ok(())

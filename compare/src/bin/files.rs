@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use compare::counting::{Counting, with_peak};
 use compare::timing;
-use meshweft::files::{Document, Format};
+use meshweft::files::{Document, Edit, Format};
 use meshweft::order::{KCacheReorder, vertex_fetch};
 use meshweft::{CacheModel, FaceOrder, Limits, VertexOrder};
 
@@ -89,7 +89,11 @@ fn row(name: &str, size: usize, path: &Path) -> Result<(), String> {
             };
             let mut document = open()?;
             let read = lap();
-            let applied = document.apply(0, &faces, vertices.as_ref());
+            let applied = document.edit(Edit::Order {
+                mesh: 0,
+                faces: Some(&faces),
+                vertices: vertices.as_ref(),
+            });
             applied.map_err(|error| error.to_string())?;
             let moved = lap();
             document.write(&output).map_err(|error| error.to_string())?;

@@ -19,7 +19,7 @@ mod values;
 
 use std::path::Path;
 
-use meshweft::files::{Document, Format, Place};
+use meshweft::files::{Document, Edit, Format, Place};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 use plain::FaceSet;
 
@@ -90,7 +90,13 @@ fn check(text: &str, seed: u64) {
         let entry = &document.meshes()[mesh];
         let stay = FaceOrder::identity(entry.record_count());
         let vertices = VertexOrder::identity(entry.mesh.vertex_count());
-        document.apply(mesh, &stay, Some(&vertices)).unwrap();
+        document
+            .edit(Edit::Order {
+                mesh,
+                faces: Some(&stay),
+                vertices: Some(&vertices),
+            })
+            .unwrap();
     }
     assert_eq!(written(&document), text, "orders that move nothing");
     for _ in 0..2 {
@@ -99,7 +105,13 @@ fn check(text: &str, seed: u64) {
         for mesh in 0..count {
             let entry = document.meshes()[mesh].clone();
             let (order, vertices) = values::orders(&mut random, &entry);
-            document.apply(mesh, &order, vertices.as_ref()).unwrap();
+            document
+                .edit(Edit::Order {
+                    mesh,
+                    faces: Some(&order),
+                    vertices: vertices.as_ref(),
+                })
+                .unwrap();
             // Entries come in the order of the file; those that stay have no entry.
             let place = before.entries[mesh];
             wanted.sets[place] = expected(&before.sets[place], &order);
@@ -141,7 +153,13 @@ fn a_file_is_changed_to_the_byte() {
     let mut document = open(text.as_bytes());
     let order = FaceOrder::new(Permutation::new(vec![1, 0]).unwrap(), vec![1, 0]).unwrap();
     let vertices = VertexOrder::from(Permutation::new(vec![1, 0, 2]).unwrap());
-    document.apply(0, &order, Some(&vertices)).unwrap();
+    document
+        .edit(Edit::Order {
+            mesh: 0,
+            faces: Some(&order),
+            vertices: Some(&vertices),
+        })
+        .unwrap();
     let expected = "#VRML V2.0 utf8\r\nIndexedFaceSet{coord Coordinate{point[1\t0 0,,0 0 0 # one\r\n 2 0 0,]}\r\n\
                 coordIndex[0 1\n2 -1 # a\n 1,0,2,-1]color Color{color[0 1 0 0 0 1]}colorPerVertex FALSE}#end";
     assert_eq!(written(&document), expected);

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use meshweft::attribute::Domain;
-use meshweft::files::{Document, Format, MeshEntry};
+use meshweft::files::{Document, Edit, Format, MeshEntry};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 
 /// Reads `data`, permutes it, reads the output again and compares.
@@ -30,7 +30,11 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
             .vertices_movable
             .then(|| last_first(entry.mesh.vertex_count()));
         document
-            .apply(mesh, &faces, vertices.as_ref())
+            .edit(Edit::Order {
+                mesh,
+                faces: Some(&faces),
+                vertices: vertices.as_ref(),
+            })
             .expect("an order that the entry allows");
     }
     let output = document.to_main_bytes().expect("a name of the same format");

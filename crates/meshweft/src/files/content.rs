@@ -16,15 +16,15 @@ pub(super) type ReadResult = Result<(Box<dyn Content>, Vec<Note>), Problem>;
 ///
 /// Its `Debug` output is short: bytes and faces are counted and not listed.
 pub(super) trait Content: Send + Sync + fmt::Debug {
-    /// The meshes, kept up to date by `apply`.
+    /// The meshes, kept up to date by every edit.
     fn meshes(&self) -> &[MeshEntry];
     /// What is stored with the vertices, corners and faces of a mesh; nothing is decoded for it.
     fn attributes(&self, mesh: usize) -> Vec<AttributeInfo>;
     /// The values of an attribute that [`attributes`](Self::attributes) lists, in the order in which
     /// vertices and faces now are.
     fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem>;
-    /// Permutes records; the caller has checked the lengths.
-    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>);
+    /// Does [`Edit::Order`](super::Edit::Order); the caller has checked the orders.
+    fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>);
     /// Every file to write when the document goes there, the main one last.
     fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem>;
     /// The size of all files beside the main one that were read.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::content::{Content, Destination, OutputFile};
 use super::disk::{is_same_folder, read_limited, write_files};
+use super::edit::Edit;
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
@@ -19,7 +20,8 @@ use crate::permutation::{FaceOrder, VertexOrder};
 ///
 /// ```no_run
 /// use std::path::Path;
-/// use meshweft::{CacheModel, Limits, files::Document, order::KCacheReorder};
+/// use meshweft::files::{Document, Edit};
+/// use meshweft::{CacheModel, Limits, order::KCacheReorder};
 ///
 /// let mut document = Document::open(Path::new("scene.glb"), Limits::default())?;
 /// let algorithm = KCacheReorder { cache: CacheModel::fifo(12), ..Default::default() };
@@ -28,7 +30,7 @@ use crate::permutation::{FaceOrder, VertexOrder};
 ///         Some(starts) => algorithm.polygon_order(mesh, starts),
 ///         None => algorithm.face_order(mesh),
 ///     });
-///     document.apply(mesh, &order, None)?;
+///     document.edit(Edit::Order { mesh, faces: Some(&order), vertices: None })?;
 /// }
 /// document.write(Path::new("ordered.glb"))?;
 /// # Ok::<(), meshweft::files::FileError>(())
@@ -214,27 +216,27 @@ impl Document {
         Ok(Some(numbers.as_chunks().0.to_vec()))
     }
 
-    /// Permutes the face records of a mesh, and its vertices too if an order for them is given.
-    ///
-    /// The vertex order is of the vertices as they are now; it renumbers every mesh of the same
-    /// [`vertex_group`](MeshEntry::vertex_group).
+    /// Changes the document in memory; [`write`](Self::write) writes it.
     ///
     /// # Errors
-    /// [`FileErrorKind::Order`] or [`FileErrorKind::Unsupported`] if the order is of another
+    /// Of an order, [`FileErrorKind::Order`] or [`FileErrorKind::Unsupported`] if it is of another
     /// length, moves a record out of its run, turns corners that must stay, or moves vertices that
     /// must stay. Nothing is changed then.
     ///
     /// # Panics
-    /// If there is no such mesh.
-    pub fn apply(
-        &mut self,
-        mesh: usize,
-        faces: &FaceOrder,
-        vertices: Option<&VertexOrder>,
-    ) -> Result<(), FileError> {
-        check_order(&self.meshes()[mesh], faces, vertices)
-            .map_err(|kind| kind.at(Place::File).in_file(&self.path, Some(self.format)))?;
-        self.content.apply(mesh, faces, vertices);
+    /// If the edit is of a mesh that is not there.
+    pub fn edit(&mut self, edit: Edit<'_>) -> Result<(), FileError> {
+        match edit {
+            Edit::Order {
+                mesh,
+                faces,
+                vertices,
+            } => {
+                check_order(&self.meshes()[mesh], faces, vertices)
+                    .map_err(|kind| kind.at(Place::File).in_file(&self.path, Some(self.format)))?;
+                self.content.order(mesh, faces, vertices);
+            }
+        }
         Ok(())
     }
 
@@ -341,7 +343,7 @@ fn bytes_of(file: &OutputFile<'_>) -> Result<Vec<u8>, Problem> {
 
 fn check_order(
     entry: &MeshEntry,
-    faces: &FaceOrder,
+    faces: Option<&FaceOrder>,
     vertices: Option<&VertexOrder>,
 ) -> Result<(), FileErrorKind> {
     let length = |what, expected, found| match expected == found {
@@ -352,8 +354,6 @@ fn check_order(
             found,
         })),
     };
-    length("face order", entry.record_count(), faces.len())?;
-
     let unsupported = |text: &str| {
         Err(FileErrorKind::unsupported(format!(
             "mesh {:?}: {text}",
@@ -361,12 +361,15 @@ fn check_order(
         )))
     };
 
-    if !entry.keeps_runs(faces) {
-        return unsupported("the order moves a face out of its run (group, material, …)");
-    }
-    let turns = faces.rotations().iter().any(|&r| r != 0);
-    if turns && (!entry.corners_turnable || entry.polygons.is_some()) {
-        return unsupported("the order turns corners that must stay");
+    if let Some(faces) = faces {
+        length("face order", entry.record_count(), faces.len())?;
+        if !entry.keeps_runs(faces) {
+            return unsupported("the order moves a face out of its run (group, material, …)");
+        }
+        let turns = faces.rotations().iter().any(|&r| r != 0);
+        if turns && (!entry.corners_turnable || entry.polygons.is_some()) {
+            return unsupported("the order turns corners that must stay");
+        }
     }
 
     let Some(vertices) = vertices else {

@@ -14,6 +14,7 @@
 mod content;
 mod disk;
 mod document;
+mod edit;
 mod entry;
 mod error;
 mod face_records;
@@ -36,6 +37,7 @@ mod vrml;
 
 pub use disk::{is_gzip, remove_abandoned};
 pub use document::{Document, Written};
+pub use edit::Edit;
 pub use entry::MeshEntry;
 pub use error::{FileError, FileErrorKind, Place};
 pub use format::Format;

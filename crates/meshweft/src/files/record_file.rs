@@ -117,12 +117,14 @@ impl<N: Notation> Content for RecordFile<N> {
         self.notation.attribute(&stored, info)
     }
 
-    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {
-        let entry = &mut self.entries[mesh];
-        self.orders.add_faces(faces);
-        entry.apply_faces(faces);
+    fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>) {
+        let (entry, orders) = (&mut self.entries[mesh], &mut self.orders);
+        if let Some(faces) = faces {
+            orders.add_faces(faces);
+            entry.apply_faces(faces);
+        }
         if let Some(vertices) = vertices {
-            self.orders.add_vertices(vertices);
+            orders.add_vertices(vertices);
             entry.apply_vertices(vertices);
         }
     }

@@ -7,7 +7,7 @@ use super::options::Options;
 use super::rounds::{Round, better_vertex_order, improve_until_settled};
 use crate::cache::CacheModel;
 use crate::faces::Faces;
-use crate::files::{Document, FileError, MeshEntry};
+use crate::files::{Document, Edit, FileError, MeshEntry};
 use crate::order::Target;
 use crate::parallel;
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -182,13 +182,20 @@ impl Improvement {
     pub(super) fn apply(&self, document: &mut Document) -> Result<(), FileError> {
         for (i, change) in self.faces.iter().enumerate() {
             if !change.order.is_identity() {
-                document.apply(i, &change.order, None)?;
+                document.edit(Edit::Order {
+                    mesh: i,
+                    faces: Some(&change.order),
+                    vertices: None,
+                })?;
             }
         }
         for VertexChange { members, order } in self.vertices.values() {
             if !order.is_identity() {
-                let still = FaceOrder::identity(document.meshes()[members[0]].record_count());
-                document.apply(members[0], &still, Some(order))?;
+                document.edit(Edit::Order {
+                    mesh: members[0],
+                    faces: None,
+                    vertices: Some(order),
+                })?;
             }
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! Attributes: what is listed, and that values follow the vertices.
 
 use meshweft::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
-use meshweft::files::{Document, FileErrorKind, Place};
+use meshweft::files::{Document, Edit, FileErrorKind, Place};
 use serde_json::{Value, json};
 
 use crate::builder::{Builder, F32, U8, U16, faces};
@@ -266,7 +266,13 @@ fn faces_name_the_vertices_whose_values_are_read() {
     let mut random = Random(3);
     let faces = random.face_order(60);
     let vertices = random.permutation(COUNT).into();
-    document.apply(0, &faces, Some(&vertices)).unwrap();
+    document
+        .edit(Edit::Order {
+            mesh: 0,
+            faces: Some(&faces),
+            vertices: Some(&vertices),
+        })
+        .unwrap();
     assert_eq!(corners(&document), faces.apply(&before));
 }
 

@@ -14,7 +14,7 @@ mod output;
 mod reader;
 mod surroundings;
 
-use meshweft::files::Document;
+use meshweft::files::{Document, Edit};
 use meshweft::{FaceOrder, Permutation, VertexOrder};
 
 /// A small generator of numbers that are the same everywhere.
@@ -54,6 +54,12 @@ pub(crate) fn random_orders(document: &mut Document, seed: u64) {
         let vertices = entry
             .vertices_movable
             .then(|| VertexOrder::from(random.permutation(entry.mesh.vertex_count())));
-        document.apply(mesh, &faces, vertices.as_ref()).unwrap();
+        document
+            .edit(Edit::Order {
+                mesh,
+                faces: Some(&faces),
+                vertices: vertices.as_ref(),
+            })
+            .unwrap();
     }
 }

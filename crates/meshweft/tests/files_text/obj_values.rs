@@ -1,7 +1,7 @@
 //! Values of OBJ files, by hand and by law.
 
 use meshweft::Limits;
-use meshweft::files::{Document, Format};
+use meshweft::files::{Document, Edit, Format};
 
 use super::data::folder;
 use super::follow::{all, assert_follow, assert_same, listed, values};
@@ -20,7 +20,13 @@ pub(crate) fn check_values(bytes: &[u8], format: Format, seed: u64) -> usize {
         let before = all(&document, 0);
         let faces = random.face_order(&entry);
         let vertices = random.vertex_order(&entry);
-        document.apply(0, &faces, vertices.as_ref()).unwrap();
+        document
+            .edit(Edit::Order {
+                mesh: 0,
+                faces: Some(&faces),
+                vertices: vertices.as_ref(),
+            })
+            .unwrap();
         let after = all(&document, 0);
         assert_follow(&before, &entry, &after, &faces, vertices.as_ref());
         assert_same(&after, &all(&open(&written(&document), format), 0));
@@ -208,7 +214,13 @@ fn values_of_spoilt_files_are_refused_or_survive() {
                 continue;
             };
             let (faces, vertices) = (random.face_order(&entry), random.vertex_order(&entry));
-            document.apply(0, &faces, vertices.as_ref()).unwrap();
+            document
+                .edit(Edit::Order {
+                    mesh: 0,
+                    faces: Some(&faces),
+                    vertices: vertices.as_ref(),
+                })
+                .unwrap();
             for info in document.attributes(0) {
                 let _ = document.attribute(0, &info);
             }

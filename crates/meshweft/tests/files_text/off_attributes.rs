@@ -1,7 +1,7 @@
 //! Attributes of OFF: what lines hold, before and after their order changes.
 
 use meshweft::attribute::{AttributeInfo, ComponentType, Domain, Semantic, Values};
-use meshweft::files::{Document, Format, Place};
+use meshweft::files::{Document, Edit, Format, Place};
 use meshweft::{FaceOrder, Permutation};
 
 use super::open;
@@ -83,12 +83,24 @@ fn values_of_lines_follow_their_order() {
 
     let faces = FaceOrder::from(Permutation::new(vec![1, 2, 0]).unwrap());
     let vertices = Permutation::new(vec![3, 1, 0, 2]).unwrap().into();
-    document.apply(0, &faces, Some(&vertices)).unwrap();
+    document
+        .edit(Edit::Order {
+            mesh: 0,
+            faces: Some(&faces),
+            vertices: Some(&vertices),
+        })
+        .unwrap();
     check_vertices(&document, [3, 1, 0, 2]);
     let expected = Values::F32([triangle, quad, quad].concat());
     assert_eq!(values(&document, &face_colors), expected);
 
-    document.apply(0, &faces, Some(&vertices)).unwrap();
+    document
+        .edit(Edit::Order {
+            mesh: 0,
+            faces: Some(&faces),
+            vertices: Some(&vertices),
+        })
+        .unwrap();
     check_vertices(&document, [2, 1, 3, 0]);
 }
 

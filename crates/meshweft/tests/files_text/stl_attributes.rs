@@ -1,7 +1,7 @@
 //! Attributes of STL: positions of welded vertices, normals and bytes of facets.
 
 use meshweft::attribute::{AttributeInfo, ComponentType, Domain, Semantic, Values};
-use meshweft::files::{Document, Format, Place};
+use meshweft::files::{Document, Edit, Format, Place};
 use meshweft::{FaceOrder, Permutation};
 
 use super::open;
@@ -50,7 +50,13 @@ fn positions_and_normals_of_ascii_follow_their_facets() {
     let order = FaceOrder::new(Permutation::new(vec![1, 0]).unwrap(), vec![2, 1]).unwrap();
     for _ in 0..3 {
         let before = corners(&document);
-        document.apply(0, &order, None).unwrap();
+        document
+            .edit(Edit::Order {
+                mesh: 0,
+                faces: Some(&order),
+                vertices: None,
+            })
+            .unwrap();
         assert_eq!(corners(&document), order.apply(&before));
     }
     assert_eq!(
@@ -67,7 +73,13 @@ fn numbers_of_binary_follow_their_facets() {
     assert_eq!(before[3][2], [2.0, -0.0, f32::NAN].map(f32::to_bits));
     let order: Vec<u32> = vec![4, 0, 8, 1, 7, 2, 6, 3, 5];
     let order = FaceOrder::new(Permutation::new(order).unwrap(), vec![2; 9]).unwrap();
-    document.apply(0, &order, None).unwrap();
+    document
+        .edit(Edit::Order {
+            mesh: 0,
+            faces: Some(&order),
+            vertices: None,
+        })
+        .unwrap();
     assert_eq!(corners(&document), order.apply(&before));
 
     // The builder writes the number of the facet in all bytes of its normal, and in the last.

@@ -1,6 +1,6 @@
 //! Values of face sets, by hand and by law.
 
-use meshweft::files::{Document, MeshEntry};
+use meshweft::files::{Document, Edit, MeshEntry};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 
 use super::follow::{all, assert_follow, assert_same, listed, values};
@@ -34,7 +34,13 @@ fn check_values(text: &str, seed: u64) -> usize {
             let entry = document.meshes()[mesh].clone();
             let before = all(&document, mesh);
             let (faces, vertices) = orders(&mut random, &entry);
-            document.apply(mesh, &faces, vertices.as_ref()).unwrap();
+            document
+                .edit(Edit::Order {
+                    mesh,
+                    faces: Some(&faces),
+                    vertices: vertices.as_ref(),
+                })
+                .unwrap();
             let after = all(&document, mesh);
             assert_follow(&before, &entry, &after, &faces, vertices.as_ref());
         }
@@ -185,7 +191,13 @@ fn values_of_spoilt_files_are_refused_or_survive() {
             let Ok(mut document) = document else { continue };
             for mesh in 0..document.meshes().len() {
                 let (faces, vertices) = orders(&mut random, &document.meshes()[mesh].clone());
-                document.apply(mesh, &faces, vertices.as_ref()).unwrap();
+                document
+                    .edit(Edit::Order {
+                        mesh,
+                        faces: Some(&faces),
+                        vertices: vertices.as_ref(),
+                    })
+                    .unwrap();
                 for info in document.attributes(mesh) {
                     let _ = document.attribute(mesh, &info);
                 }

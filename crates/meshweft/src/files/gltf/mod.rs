@@ -265,9 +265,9 @@ impl Content for GltfFile {
             .read(mesh, info, self.json(), vertex_count, &self.buffers)
     }
 
-    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {
+    fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>) {
         let mut rewritten = Vec::new();
-        if !faces.is_identity() {
+        if let Some(faces) = faces.filter(|order| !order.is_identity()) {
             rewritten = self.move_faces(mesh, faces);
         }
         if let Some(order) = vertices.filter(|order| !order.is_identity()) {

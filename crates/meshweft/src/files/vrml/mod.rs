@@ -316,10 +316,12 @@ impl Content for VrmlFile {
         Ok(Attribute::new(info.clone(), Values::F32(read)))
     }
 
-    fn apply(&mut self, mesh: usize, faces: &FaceOrder, vertices: Option<&VertexOrder>) {
+    fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>) {
         let (entry, orders) = (&mut self.entries[mesh], &mut self.sets[mesh].orders);
-        orders.add_faces(faces);
-        entry.apply_faces(faces);
+        if let Some(faces) = faces {
+            orders.add_faces(faces);
+            entry.apply_faces(faces);
+        }
         if let Some(vertices) = vertices {
             orders.add_vertices(vertices);
             entry.apply_vertices(vertices);
