@@ -7,12 +7,13 @@
 use std::error::Error;
 use std::path::Path;
 
-use meshweft::files::{Document, Format, ReadOptions};
+use meshweft::attribute::{Attribute, Semantic};
+use meshweft::files::{Document, FileError, Format, NewMesh, NewVertices, ReadOptions};
 use meshweft::operations::{Options, optimize};
 
 fn main() -> Result<(), Box<dyn Error>> {
     // The name is for messages only: nothing is read from disk.
-    let (bytes, name) = (shuffled_grid(), Path::new("grid.glb"));
+    let (bytes, name) = (shuffled_grid()?, Path::new("grid.glb"));
     let mut document =
         Document::from_bytes(bytes.clone(), Format::Glb, name, ReadOptions::default())?;
     let report = optimize(&mut document, &Options::default(), &())?;
@@ -24,40 +25,16 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// A GLB with 20 × 20 quads, the faces far from their neighbours.
-fn shuffled_grid() -> Vec<u8> {
+fn shuffled_grid() -> Result<Vec<u8>, FileError> {
     let position = |i: u16| [f32::from(i % 21), f32::from(i / 21), 0.0];
-    let square = |i: u16| {
-        let corner = i * 37 % 400 / 20 * 21 + i * 37 % 400 % 20;
-        [
-            corner,
-            corner + 1,
-            corner + 21,
-            corner + 1,
-            corner + 22,
-            corner + 21,
-        ]
+    let positions: Vec<[f32; 3]> = (0..441).map(position).collect();
+    let quad = |i: u32| {
+        let a = i * 37 % 400 / 20 * 21 + i * 37 % 400 % 20;
+        [[a, a + 1, a + 21], [a + 1, a + 22, a + 21]]
     };
-    let positions = (0..441).flat_map(position).flat_map(f32::to_le_bytes);
-    let indices = (0..400).flat_map(square).flat_map(u16::to_le_bytes);
-    let buffer: Vec<u8> = positions.chain(indices).collect();
+    let faces: Vec<[u32; 3]> = (0..400).flat_map(quad).collect();
 
-    let mut json = String::from(
-        r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":10092}],"bufferViews":[
-        {"buffer":0,"byteLength":5292},{"buffer":0,"byteOffset":5292,"byteLength":4800}],"accessors":[
-        {"bufferView":0,"componentType":5126,"count":441,"type":"VEC3","min":[0,0,0],"max":[20,20,0]},
-        {"bufferView":1,"componentType":5123,"count":2400,"type":"SCALAR"}],
-        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}]}"#,
-    );
-    while !json.len().is_multiple_of(4) {
-        json.push(' ');
-    }
-
-    let word = |n: usize| u32::try_from(n).expect("a small file").to_le_bytes();
-    let mut bytes = [*b"glTF", word(2), word(28 + json.len() + buffer.len())].concat();
-    for (kind, chunk) in [(b"JSON", json.as_bytes()), (b"BIN\0", &buffer)] {
-        bytes.extend(word(chunk.len()));
-        bytes.extend(kind);
-        bytes.extend(chunk);
-    }
-    bytes
+    let attributes = [Attribute::of_vertices(Semantic::Position, &positions)];
+    let grid = NewMesh::new("grid", NewVertices::Stored(&attributes), &faces);
+    Document::create(Format::Glb, Path::new("grid.glb"), &[grid])?.to_main_bytes()
 }

@@ -74,6 +74,19 @@ pub enum ComponentType {
     F64,
 }
 
+impl ComponentType {
+    /// How many bytes one takes.
+    #[must_use]
+    pub fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+}
+
 /// What there is to know of an attribute before its values are read.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -171,6 +184,29 @@ impl Values {
             Self::F64(_) => ComponentType::F64,
         }
     }
+
+    /// The bytes of all components, the lowest of each first.
+    #[must_use]
+    pub fn to_le_bytes(&self) -> Vec<u8> {
+        match self {
+            Self::I8(values) => bytes_of_each(values, i8::to_le_bytes),
+            Self::U8(values) => bytes_of_each(values, u8::to_le_bytes),
+            Self::I16(values) => bytes_of_each(values, i16::to_le_bytes),
+            Self::U16(values) => bytes_of_each(values, u16::to_le_bytes),
+            Self::I32(values) => bytes_of_each(values, i32::to_le_bytes),
+            Self::U32(values) => bytes_of_each(values, u32::to_le_bytes),
+            Self::F32(values) => bytes_of_each(values, f32::to_le_bytes),
+            Self::F64(values) => bytes_of_each(values, f64::to_le_bytes),
+        }
+    }
+}
+
+fn bytes_of_each<T: Copy, const N: usize>(values: &[T], bytes: fn(T) -> [u8; N]) -> Vec<u8> {
+    let mut all = Vec::with_capacity(values.len() * N);
+    for &value in values {
+        all.extend_from_slice(&bytes(value));
+    }
+    all
 }
 
 /// The values of an attribute.
@@ -201,6 +237,19 @@ impl Attribute {
         };
         assert!(is_whole, "values end within an element");
         Self { info, values }
+    }
+
+    /// An attribute of the vertices of a mesh, `N` numbers each.
+    ///
+    /// ```
+    /// use meshweft::attribute::{Attribute, Semantic};
+    /// let normals = Attribute::of_vertices(Semantic::Normal, &[[0.0, 0.0, 1.0]; 4]);
+    /// assert_eq!((normals.len(), normals.info.components), (4, 3));
+    /// ```
+    #[must_use]
+    pub fn of_vertices<const N: usize>(semantic: Semantic, elements: &[[f32; N]]) -> Self {
+        let info = AttributeInfo::new(semantic, Domain::Vertex, N, ComponentType::F32);
+        Self::new(info, Values::F32(elements.as_flattened().to_vec()))
     }
 
     /// How many elements there are.

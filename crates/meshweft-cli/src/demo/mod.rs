@@ -1,15 +1,17 @@
 //! `demo`: every method on meshes made here.
 
-mod glb;
 mod meshes;
 mod picture;
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::Args;
+use meshweft::attribute::{Attribute, Semantic};
+use meshweft::files::{Document, Format, NewMesh, NewVertices};
+use meshweft::geometry::vertex_normals;
 use meshweft::operations::Method;
 use meshweft::order::{Effort, Mode};
 use meshweft::{CacheModel, Mesh, cache};
@@ -88,15 +90,15 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
     let method = Method::k_cache_reorder(SIZES[0], Mode::Fast);
     let (knot, ordered_surface) = (method.applied(&knot), method.applied(&surface));
     let mut files = Vec::new();
-    let mut write = |name: &str, bytes: Vec<u8>| {
-        let path = folder.join(name);
+    for (name, mesh) in [("knot", &knot), ("isosurface", &ordered_surface)] {
+        let path = folder.join(name).with_extension("glb");
+        write_glb(mesh, name, &path)?;
         files.push(path.display().to_string());
-        fs::write(&path, bytes).with_context(|| path.display().to_string())
-    };
-    write("knot.glb", glb::glb(&knot, "knot"))?;
-    write("isosurface.glb", glb::glb(&ordered_surface, "isosurface"))?;
+    }
     let picture = picture::before_and_after(&surface, &ordered_surface, CacheModel::fifo(12));
-    write("before-after.png", picture)?;
+    let path = folder.join("before-after.png");
+    fs::write(&path, picture).with_context(|| path.display().to_string())?;
+    files.push(path.display().to_string());
 
     let members = json!({"meshes": results, "files": files});
     arguments.report.json("demo", &members)?;
@@ -106,6 +108,18 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
         files.join(", ")
     );
     Ok(arguments.report.text(&text)?)
+}
+
+/// Writes a mesh with normals.
+fn write_glb(mesh: &Mesh, name: &str, path: &Path) -> Result<()> {
+    let normals = vertex_normals(mesh.positions(), mesh.faces());
+    let attributes = [
+        Attribute::of_vertices(Semantic::Position, mesh.positions()),
+        Attribute::of_vertices(Semantic::Normal, &normals),
+    ];
+    let new = NewMesh::new(name, NewVertices::Stored(&attributes), mesh.faces());
+    Document::create(Format::Glb, path, &[new])?.write(path)?;
+    Ok(())
 }
 
 /// What one method did to one mesh.

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
+use super::edit::NewValue;
 use super::entry::MeshEntry;
-use super::error::Problem;
+use super::error::{FileErrorKind, Place, Problem};
+use super::new_mesh::NewMesh;
 use super::note::Note;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -25,6 +27,16 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem>;
     /// Does [`Edit::Order`](super::Edit::Order); the caller has checked the orders.
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>);
+    /// Does [`Edit::Append`](super::Edit::Append), or changes nothing; the notes of the document as it
+    /// then is.
+    fn append(
+        &mut self,
+        _meshes: &[NewMesh<'_>],
+        _values: &[NewValue<'_>],
+    ) -> Result<Vec<Note>, Problem> {
+        let text = "meshes can be added to .gltf and .glb files only";
+        Err(FileErrorKind::unsupported(text).at(Place::File))
+    }
     /// Every file to write when the document goes there, the main one last.
     fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem>;
     /// The size of all files beside the main one that were read.

@@ -4,17 +4,16 @@ use std::path::{Path, PathBuf};
 
 use super::content::{Content, Destination, OutputFile};
 use super::disk::{is_same_folder, read_limited, write_files};
-use super::edit::Edit;
+use super::edit::{Edit, check_order};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
+use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::surroundings::{Surroundings, check_size};
 use super::{gltf, obj, off, ply, stl, vrml};
 use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
-use crate::error::MeshError;
-use crate::permutation::{FaceOrder, VertexOrder};
 
 /// A mesh file whose faces and vertices can be permuted in place.
 ///
@@ -135,6 +134,51 @@ impl Document {
         })
     }
 
+    /// A document of new meshes, in memory: a GLB, a `.gltf` that holds its buffer itself, or a PLY file,
+    /// which takes one mesh.
+    ///
+    /// The name is for errors, and for a `.gltf` the one it is written under.
+    ///
+    /// ```
+    /// use meshweft::attribute::{Attribute, Semantic};
+    /// use meshweft::files::{Document, Format, NewMesh, NewVertices};
+    ///
+    /// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let attributes = [Attribute::of_vertices(Semantic::Position, &corners)];
+    /// let vertices = NewVertices::Stored(&attributes);
+    /// let triangle = NewMesh::new("triangle", vertices, &[[0, 1, 2]]);
+    /// let document = Document::create(Format::Glb, "triangle.glb".as_ref(), &[triangle])?;
+    /// assert_eq!(document.positions(0)?.as_deref(), Some(&corners[..]));
+    /// # Ok::<(), meshweft::files::FileError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`FileErrorKind::Unsupported`] if files of this format are not made here, or cannot hold one of
+    /// the meshes; [`FileErrorKind::Order`] if faces name vertices that are not there.
+    ///
+    /// # Complexity
+    /// Time and space O(bytes of the file).
+    pub fn create(format: Format, name: &Path, meshes: &[NewMesh<'_>]) -> Result<Self, FileError> {
+        let created = match format {
+            Format::Gltf | Format::Glb => gltf::create(format, name, meshes),
+            Format::Ply => ply::create(meshes),
+            Format::Obj | Format::Off | Format::Stl | Format::Vrml => {
+                let text =
+                    format!("{format} files are not made from nothing: create a .glb or a .ply");
+                Err(FileErrorKind::unsupported(text).at(Place::File))
+            }
+        };
+        let (content, notes) = created.map_err(|problem| problem.in_file(name, Some(format)))?;
+        Ok(Self {
+            path: name.to_owned(),
+            format,
+            content,
+            notes,
+            folder: None,
+            main_size: 0,
+        })
+    }
+
     /// The path it was read from, or the name it was given.
     #[must_use]
     pub fn path(&self) -> &Path {
@@ -235,6 +279,11 @@ impl Document {
                 check_order(&self.meshes()[mesh], faces, vertices)
                     .map_err(|kind| kind.at(Place::File).in_file(&self.path, Some(self.format)))?;
                 self.content.order(mesh, faces, vertices);
+            }
+            Edit::Append { meshes, values } => {
+                let notes = self.content.append(meshes, values);
+                self.notes =
+                    notes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
             }
         }
         Ok(())
@@ -339,45 +388,4 @@ fn bytes_of(file: &OutputFile<'_>) -> Result<Vec<u8>, Problem> {
     let written = (file.write)(&mut bytes);
     written.map_err(|error| FileErrorKind::Io(error).at(Place::File))?;
     Ok(bytes)
-}
-
-fn check_order(
-    entry: &MeshEntry,
-    faces: Option<&FaceOrder>,
-    vertices: Option<&VertexOrder>,
-) -> Result<(), FileErrorKind> {
-    let length = |what, expected, found| match expected == found {
-        true => Ok(()),
-        false => Err(FileErrorKind::Order(MeshError::LengthMismatch {
-            what,
-            expected,
-            found,
-        })),
-    };
-    let unsupported = |text: &str| {
-        Err(FileErrorKind::unsupported(format!(
-            "mesh {:?}: {text}",
-            entry.name
-        )))
-    };
-
-    if let Some(faces) = faces {
-        length("face order", entry.record_count(), faces.len())?;
-        if !entry.keeps_runs(faces) {
-            return unsupported("the order moves a face out of its run (group, material, …)");
-        }
-        let turns = faces.rotations().iter().any(|&r| r != 0);
-        if turns && (!entry.corners_turnable || entry.polygons.is_some()) {
-            return unsupported("the order turns corners that must stay");
-        }
-    }
-
-    let Some(vertices) = vertices else {
-        return Ok(());
-    };
-    length("vertex order", entry.mesh.vertex_count(), vertices.len())?;
-    match entry.vertices_movable || vertices.is_identity() {
-        true => Ok(()),
-        false => unsupported("its vertices must stay where they are"),
-    }
 }

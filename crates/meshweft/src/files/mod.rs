@@ -2,11 +2,13 @@
 //!
 //! Re-ordering permutes records of a file, so the file is patched rather than written again from
 //! nothing: whatever a reader does not know (materials, extras, extensions, comments) cannot be
-//! lost. Read [`Document`] first, then [`MeshEntry`]; each format has a module of its own.
+//! lost. What is added goes to the ends, and nothing moves. Read [`Document`] first, then
+//! [`MeshEntry`]; each format has a module of its own.
 //!
 //! | to learn | read |
 //! |---|---|
 //! | how a format plugs in | `content` |
+//! | what can be done to a document | [`Edit`], [`Document::create`] |
 //! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `record_file` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
 //! | where bytes come from and go to | `disk`, `surroundings` |
@@ -20,6 +22,7 @@ mod error;
 mod face_records;
 mod format;
 mod gltf;
+mod new_mesh;
 mod note;
 mod obj;
 mod off;
@@ -37,11 +40,12 @@ mod vrml;
 
 pub use disk::{is_gzip, remove_abandoned};
 pub use document::{Document, Written};
-pub use edit::Edit;
+pub use edit::{Edit, NewValue};
 pub use entry::MeshEntry;
 pub use error::{FileError, FileErrorKind, Place};
 pub use format::Format;
 pub use gltf::external_buffers;
+pub use new_mesh::{NewMesh, NewVertices};
 pub use note::Note;
 pub use options::ReadOptions;
 pub use surroundings::Surroundings;

@@ -1,6 +1,7 @@
 //! glTF files: what is moved keeps its meaning, and what is not moved keeps its bytes.
 #![cfg(feature = "files")]
 
+mod append;
 mod attributes;
 mod broken;
 mod builder;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::base64;
 use super::object::{Object, malformed};
+use super::uri::{decode_data, relative_path, starts_with_ignoring_case};
 use crate::files::disk::Stored;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::surroundings::Surroundings;
@@ -50,6 +50,9 @@ enum Missing {
     },
 }
 
+/// Why data of a GLB may not change.
+pub(super) const OUTSIDE_OF_GLB: &str = "its data is not in the binary chunk of the GLB";
+
 /// All buffers of a file.
 #[derive(Default)]
 pub(super) struct Buffers {
@@ -81,8 +84,9 @@ impl Buffers {
                     Ok(buffers.store(Source::Binary, binary.take().unwrap_or_default()))
                 }
                 None => Err(Missing::NoUri),
-                Some(uri) if starts_with_ignoring_case(uri, "data:") => {
-                    decode_data(uri).map(|(prefix, bytes)| {
+                Some(uri) if starts_with_ignoring_case(uri, "data:") => decode_data(uri)
+                    .map_err(Missing::BadUri)
+                    .map(|(prefix, bytes)| {
                         let prefix = prefix.to_owned();
                         buffers.store(
                             Source::Data {
@@ -91,19 +95,20 @@ impl Buffers {
                             },
                             bytes,
                         )
-                    })
-                }
+                    }),
                 // Two buffers over one file are one storage: their bytes are the same bytes.
-                Some(uri) => relative_path(uri).and_then(|relative| {
-                    external
-                        .entry(relative.clone())
-                        .or_insert_with(|| {
-                            let stored = read_beside(surroundings, &relative, limits)?;
-                            buffers.read_size += stored.size;
-                            Ok(buffers.store(Source::External(relative), stored.bytes))
-                        })
-                        .clone()
-                }),
+                Some(uri) => relative_path(uri)
+                    .map_err(Missing::BadUri)
+                    .and_then(|relative| {
+                        external
+                            .entry(relative.clone())
+                            .or_insert_with(|| {
+                                let stored = read_beside(surroundings, &relative, limits)?;
+                                buffers.read_size += stored.size;
+                                Ok(buffers.store(Source::External(relative), stored.bytes))
+                            })
+                            .clone()
+                    }),
             };
 
             buffers.count += 1;
@@ -127,7 +132,7 @@ impl Buffers {
     pub(super) fn fix(&mut self, name: &Path, is_glb: bool, keep: &[PathBuf]) {
         for storage in &mut self.storages {
             if is_glb && storage.source != Source::Binary {
-                storage.fixed = Some("its data is not in the binary chunk of the GLB");
+                storage.fixed = Some(OUTSIDE_OF_GLB);
             }
             let Source::External(relative) = &storage.source else {
                 continue;
@@ -138,7 +143,7 @@ impl Buffers {
         }
     }
 
-    fn store(&mut self, source: Source, bytes: Vec<u8>) -> usize {
+    pub(super) fn store(&mut self, source: Source, bytes: Vec<u8>) -> usize {
         self.storages.push(Storage {
             source,
             bytes,
@@ -146,6 +151,18 @@ impl Buffers {
             fixed: None,
         });
         self.storages.len() - 1
+    }
+
+    /// Adds a buffer after the last that stands for a storage.
+    pub(super) fn name(&mut self, buffer: usize, storage: usize) {
+        self.of_buffer.insert(buffer, storage);
+        self.count += 1;
+    }
+
+    /// Undoes [`name`](Self::name).
+    pub(super) fn forget_name(&mut self, buffer: usize) {
+        self.of_buffer.remove(&buffer);
+        self.count -= 1;
     }
 
     /// The storage of a buffer; `user` is the pointer to what names it.
@@ -251,143 +268,4 @@ fn read_beside(
         }
         other => Missing::BadUri(other.to_string()),
     })
-}
-
-fn decode_data(uri: &str) -> Result<(&str, Vec<u8>), Missing> {
-    let bad = |text: String| Err(Missing::BadUri(text));
-    let Some(comma) = uri.find(',') else {
-        return bad("a data: URI needs a comma before its data".into());
-    };
-    let (prefix, data) = uri.split_at(comma + 1);
-    if !prefix.to_ascii_lowercase().ends_with(";base64,") {
-        return bad("the data: URI is not base64: export it as base64 or as a file".into());
-    }
-    match base64::decode(data) {
-        Ok(bytes) => Ok((prefix, bytes)),
-        Err(position) => bad(format!(
-            "the base64 data is wrong at character {position} of {}",
-            data.len()
-        )),
-    }
-}
-
-/// The path that a URI names, if it is one that stays below the folder of the glTF.
-fn relative_path(uri: &str) -> Result<PathBuf, Missing> {
-    let bad = |why: &str| {
-        Err(Missing::BadUri(format!(
-            "{uri:?} {why}: only files in the folder of the glTF or below are read"
-        )))
-    };
-    let Some(decoded) = percent_decoded(uri) else {
-        return bad("is not UTF-8 text when decoded");
-    };
-
-    if decoded.starts_with('/') {
-        return bad("is an absolute path");
-    }
-    if decoded.contains(':') {
-        return bad("has a scheme or a drive");
-    }
-    if decoded.contains(['\\', '\0']) {
-        return bad("has a character that file names cannot share between systems");
-    }
-
-    let segments = decoded.split('/').filter(|s| !matches!(*s, "" | "."));
-    let mut path = PathBuf::new();
-    for segment in segments {
-        if segment == ".." {
-            return bad("leaves the folder of the glTF");
-        }
-        path.push(segment);
-    }
-    match path.as_os_str().is_empty() || decoded.ends_with('/') {
-        true => bad("names no file"),
-        false => Ok(path),
-    }
-}
-
-fn percent_decoded(uri: &str) -> Option<String> {
-    let mut bytes = Vec::with_capacity(uri.len());
-    let mut rest = uri.as_bytes();
-    while let Some((&byte, after)) = rest.split_first() {
-        let digit = |i: usize| char::from(*after.get(i)?).to_digit(16);
-        let pair = digit(0).zip(digit(1)).map(|(high, low)| high * 16 + low);
-        match pair.and_then(|code| u8::try_from(code).ok()) {
-            Some(code) if byte == b'%' => {
-                bytes.push(code);
-                rest = &after[2..];
-            }
-            // A lone `%` stands for itself: some exporters do not encode at all.
-            _ => {
-                bytes.push(byte);
-                rest = after;
-            }
-        }
-    }
-    String::from_utf8(bytes).ok()
-}
-
-/// A file name as a URI: everything but unreserved characters encoded.
-pub(super) fn percent_encoded(name: &str) -> String {
-    let mut uri = String::new();
-    for &byte in name.as_bytes() {
-        match byte {
-            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
-                uri.push(char::from(byte));
-            }
-            _ => uri.push_str(&format!("%{byte:02X}")),
-        }
-    }
-    uri
-}
-
-fn starts_with_ignoring_case(text: &str, start: &str) -> bool {
-    let found = text.as_bytes().get(..start.len());
-    found.is_some_and(|found| found.eq_ignore_ascii_case(start.as_bytes()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_stay_in_the_folder() {
-        let good = |uri| relative_path(uri).unwrap();
-        assert_eq!(good("a.bin"), Path::new("a.bin"));
-        assert_eq!(good("./sub//a%20b.bin"), Path::new("sub/a b.bin"));
-        assert_eq!(good("100%.bin"), Path::new("100%.bin"));
-        for uri in [
-            "",
-            "/etc/passwd",
-            "http://host/a.bin",
-            "C:/a.bin",
-            "../a.bin",
-            "sub/../a.bin",
-            "%2e%2e%2Fa.bin",
-            "..\\a.bin",
-            "sub/",
-            "a%00.bin",
-            "%FF.bin",
-        ] {
-            assert!(relative_path(uri).is_err(), "{uri}");
-        }
-    }
-
-    #[test]
-    fn names_survive_the_way_through_a_uri() {
-        for name in ["a.bin", "ä b%.bin", "x#y?.bin"] {
-            let uri = percent_encoded(name);
-            assert!(uri.is_ascii() && !uri.contains(' '), "{uri}");
-            assert_eq!(percent_decoded(&uri).unwrap(), name);
-        }
-    }
-
-    #[test]
-    fn data_must_be_base64() {
-        let (prefix, bytes) = decode_data("data:a/b;x=y;base64,AAE=").unwrap();
-        assert_eq!((prefix, bytes), ("data:a/b;x=y;base64,", vec![0, 1]));
-        for uri in ["data:", "data:,abc", "data:;base64,A*AA"] {
-            assert!(decode_data(uri).is_err(), "{uri}");
-        }
-    }
 }

@@ -6,6 +6,9 @@ use crate::files::error::{FileErrorKind, Place, Problem};
 
 const JSON: [u8; 4] = *b"JSON";
 const BINARY: [u8; 4] = *b"BIN\0";
+/// Bytes of the file's header, and of a chunk's.
+const HEADER: usize = 12;
+const CHUNK_HEADER: usize = 8;
 
 /// A glTF file cut into its JSON, its binary chunk and what stands around them.
 pub(super) struct Container {
@@ -29,6 +32,87 @@ impl Container {
             binary: None,
             tail: Vec::new(),
         }
+    }
+
+    /// The bytes of a GLB with this JSON alone.
+    pub(super) fn new_glb(json: &str) -> Vec<u8> {
+        let mut bytes = b"glTF\x02\0\0\0".to_vec();
+        let json_length = json.len().next_multiple_of(4);
+        for length in [HEADER + CHUNK_HEADER + json_length, json_length] {
+            let length = u32::try_from(length).unwrap_or(u32::MAX);
+            bytes.extend_from_slice(&length.to_le_bytes());
+        }
+        bytes.extend_from_slice(&JSON);
+        bytes.extend_from_slice(json.as_bytes());
+        bytes.resize(bytes.len().next_multiple_of(4), b' ');
+        bytes
+    }
+
+    /// Whether it is a GLB, and not text alone.
+    pub(super) fn is_glb(&self) -> bool {
+        // Text starts with at most a byte order mark.
+        self.json.start >= HEADER + CHUNK_HEADER
+    }
+
+    /// The same file with another JSON text. Of a GLB, `binary` is the length of its binary chunk's data,
+    /// if that has changed from `0` or more.
+    ///
+    /// # Errors
+    /// A GLB would be longer than its header can say.
+    pub(super) fn with_json(
+        &self,
+        text: &[u8],
+        binary: Option<BinaryLength>,
+    ) -> Result<Self, Problem> {
+        let (mut head, json) = (self.head[..self.json.start].to_vec(), &self.json);
+        head.extend_from_slice(text);
+        let mut after = self.head[json.end..].to_vec();
+        let mut tail = self.tail.clone();
+        if self.is_glb() {
+            head.resize(head.len().next_multiple_of(4), b' ');
+        }
+        let json_range = json.start..head.len();
+        if !self.is_glb() {
+            return Ok(Self {
+                head,
+                json: json_range,
+                binary: None,
+                tail,
+            });
+        }
+
+        // The chunk with the data, whose header is the last thing before it.
+        let mut grown = 0;
+        if let Some(BinaryLength { old, new }) = binary {
+            let header = [header_word(new)?.as_slice(), &BINARY].concat();
+            match old {
+                Some(old) => {
+                    let start = after.len() - CHUNK_HEADER;
+                    after[start..].copy_from_slice(&header);
+                    grown = new - old;
+                }
+                // It must be the second chunk.
+                None => {
+                    after.extend(std::mem::take(&mut tail));
+                    tail = std::mem::replace(&mut after, header);
+                    grown = new + CHUNK_HEADER;
+                }
+            }
+        }
+
+        // The lengths of the whole and of the JSON chunk.
+        let length = word(&self.head, 8).unwrap_or_default();
+        let longer = head.len() - json.end + grown;
+        let json_length = head.len() - HEADER - CHUNK_HEADER;
+        head[8..12].copy_from_slice(&header_word(length + longer)?);
+        head[12..16].copy_from_slice(&header_word(json_length)?);
+        head.append(&mut after);
+        Ok(Self {
+            head,
+            json: json_range,
+            binary: None,
+            tail,
+        })
     }
 
     /// Where the JSON of a `.glb` that starts with these bytes ends.
@@ -116,6 +200,27 @@ impl Container {
             binary: data,
             tail,
         })
+    }
+}
+
+/// How many bytes the data of a binary chunk has and had.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BinaryLength {
+    /// `None` if there was no such chunk.
+    pub(super) old: Option<usize>,
+    pub(super) new: usize,
+}
+
+/// A length as the headers of a GLB store it.
+fn header_word(length: usize) -> Result<[u8; 4], Problem> {
+    match u32::try_from(length) {
+        Ok(length) => Ok(length.to_le_bytes()),
+        Err(_) => Err(FileErrorKind::OverLimit {
+            what: "bytes in one GLB",
+            found: length as u64,
+            limit: u64::from(u32::MAX),
+        }
+        .at(Place::File)),
     }
 }
 

@@ -1,13 +1,65 @@
 //! What extensions on meshes and primitives say about the order of faces and vertices.
 //!
 //! One that is not known may depend on any vertex number, so it keeps the vertices; nothing that is
-//! known to number faces or corners is touched.
+//! known to number faces or corners is touched. Nor is what has an extension of this project that is not
+//! known: those exist to say how faces and vertices are ordered.
+
+use std::collections::BTreeMap;
 
 use super::accessors::Accessors;
+use super::json::Value;
 use super::movable::IndexList;
 use super::object::Object;
 use super::obstacles::Obstacles;
 use crate::files::error::Problem;
+
+/// What the names of this project's extensions start with.
+const OWN: &str = "MESHWEFT_";
+
+/// Whether an extension of this project that is not known keeps what has it.
+pub(super) fn keeps_all(name: &str, accessors: &Accessors) -> bool {
+    name.starts_with(OWN) && !accessors.is_order_free(name)
+}
+
+/// Keeps a primitive because of such an extension.
+pub(super) fn keep_for_own(name: &str, obstacles: &mut Obstacles) {
+    obstacles.keep_primitive(format!(
+        "the extension {name} goes with the order of its faces and vertices: take the version of meshweft \
+         that wrote it, or remove the extension"
+    ));
+}
+
+/// Extensions of this project on what holds or draws meshes.
+pub(super) struct OwnExtensions {
+    /// One of the file as a whole.
+    of_file: Option<String>,
+    /// By the mesh that a node with one draws.
+    of_nodes: BTreeMap<usize, String>,
+}
+
+impl OwnExtensions {
+    pub(super) fn new(root: &Object, accessors: &Accessors) -> Self {
+        let own_of = |holder: Value<'_>| {
+            let extensions = holder.get("extensions")?;
+            let mut names = extensions.members().map(|(name, _)| name);
+            let own = names.find(|name| keeps_all(name, accessors));
+            own.map(|name| name.into_owned())
+        };
+        let nodes = root.value("nodes").into_iter().flat_map(Value::elements);
+        let of_node = |node: Value<'_>| Some((node.get("mesh")?.whole()?, own_of(node)?));
+        Self {
+            of_file: own_of(root.as_value()),
+            of_nodes: nodes.filter_map(of_node).collect(),
+        }
+    }
+
+    /// Keeps all primitives of a mesh, if there is one for it.
+    pub(super) fn keep(&self, mesh: usize, obstacles: &mut Obstacles) {
+        if let Some(name) = self.of_file.as_ref().or(self.of_nodes.get(&mesh)) {
+            keep_for_own(name, obstacles);
+        }
+    }
+}
 
 /// What extensions on the mesh ask of all its primitives.
 ///
@@ -41,6 +93,8 @@ pub(super) fn of_mesh(
                     .keep_primitive("EXT_mesh_manifold names corners by their place in the file");
             }
             order_free_accessors.extend(indices);
+        } else if keeps_all(&name, accessors) {
+            keep_for_own(&name, &mut obstacles);
         } else if !accessors.is_order_free(&name) {
             obstacles.keep_vertices_for_unknown(mesh.pointer(), &name);
         }
@@ -89,6 +143,7 @@ pub(super) fn of_primitive(
                 );
             }
             name if accessors.is_order_free(name) => {}
+            name if keeps_all(name, accessors) => keep_for_own(name, obstacles),
             "EXT_mesh_manifold" | "EXT_structural_metadata" => {
                 obstacles.keep_vertices(pointer, format!("{name} may depend on their order"));
             }

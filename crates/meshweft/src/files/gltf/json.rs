@@ -168,6 +168,35 @@ impl<'a> Value<'a> {
         start..end
     }
 
+    /// The byte after it.
+    fn end(self) -> usize {
+        match self.first_byte() {
+            b'{' | b'[' => {
+                let (end, _) = self.inner_end();
+                let rest = &self.json.text[end..];
+                let close = rest.iter().position(|byte| b"]}".contains(byte));
+                end + close.map_or(0, |blank| blank + 1)
+            }
+            _ => self.span().end,
+        }
+    }
+
+    /// The byte after the last value that an array or object holds; of an empty one, the byte after
+    /// its bracket, and `true`.
+    pub(super) fn inner_end(self) -> (usize, bool) {
+        let members = self.named_nodes().map(|(_, value)| value);
+        match members.chain(self.elements()).last() {
+            Some(last) => (last.end(), false),
+            None => (self.node().start as usize + 1, true),
+        }
+    }
+
+    /// Its text, as it stands there.
+    pub(super) fn raw(self) -> &'a str {
+        let text = &self.json.text[self.node().start as usize..self.end()];
+        std::str::from_utf8(text).unwrap_or_default()
+    }
+
     pub(super) fn is_object(self) -> bool {
         self.first_byte() == b'{'
     }
@@ -327,6 +356,16 @@ mod tests {
             None => serde_json::from_slice(&value.json.text[value.span()]).unwrap(),
         };
         value.to_string()
+    }
+
+    #[test]
+    fn the_text_of_a_value_ends_with_it() {
+        let text = r#"{"a" : [ 1 , {"x]": [ ] } ] , "b" : "}" , "c": {} }"#;
+        let json = read(text);
+        let raw = |name| json.root().get(name).map(Value::raw);
+        assert_eq!(raw("a"), Some(r#"[ 1 , {"x]": [ ] } ]"#));
+        assert_eq!((raw("b"), raw("c")), (Some(r#""}""#), Some("{}")));
+        assert_eq!(json.root().raw(), text);
     }
 
     #[test]

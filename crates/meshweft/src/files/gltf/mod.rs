@@ -12,7 +12,8 @@
 //! Read [`container`] → [`buffers`] → [`accessors`] → [`obstacles`] → [`movable`] → [`extensions`] →
 //! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`];
 //! [`notes`] says what is left. Values are read when they are asked for: [`attributes`] →
-//! [`elements`].
+//! [`elements`]. What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the
+//! bytes and values, [`scene`] finds where they are drawn, [`additions`] puts values into the text.
 //!
 //! | word | what it is |
 //! |---|---|
@@ -34,8 +35,13 @@
 //! | `Corners` | where the corners of a mesh are stored: in a list, or as vertices in a row |
 //! | `Entries` | the meshes that are offered, each with the records of its corners |
 //! | `Missing` | why a buffer has no bytes |
+//! | `View` | all that was found in the JSON |
+//! | `Growth` | the buffer that new bytes go to |
+//! | `Additions` | new values, each with the way to its place |
 
 mod accessors;
+mod additions;
+mod append;
 mod attributes;
 mod base64;
 mod buffers;
@@ -47,14 +53,18 @@ mod extensions;
 mod groups;
 mod json;
 mod movable;
+mod new_attributes;
+mod new_meshes;
 mod notes;
 mod object;
 mod obstacles;
 mod output;
 mod patch;
 mod primitives;
+mod scene;
 mod sparse;
 mod strided_records;
+mod uri;
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -63,9 +73,12 @@ use std::path::{Path, PathBuf};
 
 use super::content::{Content, Destination, OutputFile, ReadResult};
 use super::disk::{read_limited, read_start};
+use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
+use super::new_mesh::NewMesh;
+use super::note::Note;
 use super::options::ReadOptions;
 use super::surroundings::Surroundings;
 use crate::attribute::{Attribute, AttributeInfo};
@@ -86,6 +99,12 @@ use primitives::Primitives;
 struct GltfFile {
     container: Container,
     buffers: Buffers,
+    view: View,
+    options: ReadOptions,
+}
+
+/// What a reader of the JSON sees.
+struct View {
     uri_spans: BTreeMap<usize, Range<usize>>,
     entries: Entries,
     attributes: Attributes,
@@ -113,28 +132,56 @@ pub(super) fn read(
     let root = Object::new(json.root(), String::new())?;
     check_version(&root)?;
 
-    let mut buffers = Buffers::load(&root, binary, surroundings, &options.limits)?;
+    let mut buffers = Buffers::load(&root, binary, surroundings, limits)?;
     buffers.fix(name, is_glb, &options.keep_buffers);
+    let (view, notes) = look(&root, &buffers, options)?;
+    let file = GltfFile {
+        container,
+        buffers,
+        view,
+        options: options.clone(),
+    };
+    Ok((Box::new(file), notes))
+}
+
+/// Finds the meshes of a file.
+fn look(
+    root: &Object,
+    buffers: &Buffers,
+    options: &ReadOptions,
+) -> Result<(View, Vec<Note>), Problem> {
     let uris = root.array("buffers")?.into_iter().enumerate();
     let span = |(number, buffer): (usize, Value<'_>)| Some((number, buffer.get("uri")?.span()));
     let uri_spans = uris.filter_map(span).collect();
 
-    let accessors = Accessors::new(&root, &buffers, &options.assume_order_safe)?;
-    let mut primitives = Primitives::read(&root, &accessors, options)?;
-    let mut byte_users = ByteUsers::new(&root, &accessors, &primitives);
+    let accessors = Accessors::new(root, buffers, &options.assume_order_safe)?;
+    let mut primitives = Primitives::read(root, &accessors, options)?;
+    let mut byte_users = ByteUsers::new(root, &accessors, &primitives);
     groups::keep_entangled(&mut primitives, &mut byte_users);
-    let entries = Entries::new(&primitives, &byte_users, &buffers)?;
-    let attributes = Attributes::new(&root, &accessors, &entries.first_primitives);
+    let entries = Entries::new(&primitives, &byte_users, buffers)?;
+    let attributes = Attributes::new(root, &accessors, &entries.first_primitives);
 
-    let notes = notes::notes(&root, &primitives, &entries, &buffers);
-    let file = GltfFile {
-        container,
-        buffers,
+    let notes = notes::notes(root, &primitives, &entries, buffers);
+    let view = View {
         uri_spans,
         entries,
         attributes,
     };
-    Ok((Box::new(file), notes))
+    Ok((view, notes))
+}
+
+/// A `.gltf` or `.glb` of new meshes.
+pub(super) fn create(format: Format, name: &Path, meshes: &[NewMesh<'_>]) -> ReadResult {
+    let generator = concat!("meshweft ", env!("CARGO_PKG_VERSION"));
+    let json = serde_json::json!({ "asset": { "version": "2.0", "generator": generator } });
+    let empty = match format {
+        Format::Glb => Container::new_glb(&json.to_string()),
+        _ => json.to_string().into_bytes(),
+    };
+    let options = ReadOptions::default();
+    let (mut content, _) = read(empty, format, name, Surroundings::Nothing, &options)?;
+    let notes = content.append(meshes, &[])?;
+    Ok((content, notes))
 }
 
 fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, Problem> {
@@ -202,9 +249,9 @@ impl GltfFile {
 
     /// Moves the faces of a mesh; returns the mesh if its indices are then to be written.
     fn move_faces(&mut self, mesh: usize, faces: &FaceOrder) -> Vec<usize> {
-        match &self.entries.corners[mesh] {
+        match &self.view.entries.corners[mesh] {
             Corners::Indices(_) => {
-                self.entries.meshes[mesh].apply_faces(faces);
+                self.view.entries.meshes[mesh].apply_faces(faces);
                 vec![mesh]
             }
             Corners::Triples(vertices) => {
@@ -220,7 +267,7 @@ impl GltfFile {
 
     /// Moves the vertices of a group with all that numbers them, but for the indices of faces.
     fn move_vertices(&mut self, group: usize, order: &VertexOrder) {
-        let group = &self.entries.groups[group];
+        let group = &self.view.entries.groups[group];
         for records in &group.vertices {
             let bytes = self.buffers.bytes_to_change(records.storage);
             patch::permute(bytes, records, order.new_to_old());
@@ -236,7 +283,7 @@ impl GltfFile {
         sparse::renumber(&mut self.buffers, &group.sparse, &old_to_new);
 
         for &member in &group.meshes {
-            self.entries.meshes[member].apply_vertices(order);
+            self.view.entries.meshes[member].apply_vertices(order);
         }
     }
 }
@@ -245,23 +292,24 @@ impl fmt::Debug for GltfFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("GltfFile")
             .field("bytes", &self.buffers.byte_count())
-            .field("meshes", &self.entries.meshes.len())
+            .field("meshes", &self.view.entries.meshes.len())
             .finish_non_exhaustive()
     }
 }
 
 impl Content for GltfFile {
     fn meshes(&self) -> &[MeshEntry] {
-        &self.entries.meshes
+        &self.view.entries.meshes
     }
 
     fn attributes(&self, mesh: usize) -> Vec<AttributeInfo> {
-        self.attributes.of_mesh(mesh, self.json())
+        self.view.attributes.of_mesh(mesh, self.json())
     }
 
     fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem> {
-        let vertex_count = self.entries.meshes[mesh].mesh.vertex_count();
-        self.attributes
+        let vertex_count = self.view.entries.meshes[mesh].mesh.vertex_count();
+        self.view
+            .attributes
             .read(mesh, info, self.json(), vertex_count, &self.buffers)
     }
 
@@ -271,26 +319,34 @@ impl Content for GltfFile {
             rewritten = self.move_faces(mesh, faces);
         }
         if let Some(order) = vertices.filter(|order| !order.is_identity()) {
-            let group = self.entries.meshes[mesh].vertex_group;
+            let group = self.view.entries.meshes[mesh].vertex_group;
             self.move_vertices(group, order);
-            rewritten.clone_from(&self.entries.groups[group].meshes);
+            rewritten.clone_from(&self.view.entries.groups[group].meshes);
         }
 
         // Indices are written once for both orders.
         for mesh in rewritten {
-            if let Corners::Indices(records) = &self.entries.corners[mesh] {
+            if let Corners::Indices(records) = &self.view.entries.corners[mesh] {
                 let bytes = self.buffers.bytes_to_change(records.storage);
-                let faces = self.entries.meshes[mesh].mesh.faces();
+                let faces = self.view.entries.meshes[mesh].mesh.faces();
                 patch::write_numbers(bytes, records, faces.as_flattened().iter().copied());
             }
         }
+    }
+
+    fn append(
+        &mut self,
+        meshes: &[NewMesh<'_>],
+        values: &[NewValue<'_>],
+    ) -> Result<Vec<Note>, Problem> {
+        GltfFile::append(self, meshes, values)
     }
 
     fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem> {
         let output = Output {
             container: &self.container,
             buffers: &self.buffers,
-            uri_spans: &self.uri_spans,
+            uri_spans: &self.view.uri_spans,
         };
         output.files(to)
     }

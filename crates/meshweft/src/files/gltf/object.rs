@@ -22,6 +22,10 @@ impl<'a> Object<'a> {
         }
     }
 
+    pub(super) fn as_value(&self) -> Value<'a> {
+        self.value
+    }
+
     pub(super) fn pointer(&self) -> &str {
         &self.pointer
     }

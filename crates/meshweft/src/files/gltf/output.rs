@@ -6,8 +6,9 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::base64;
-use super::buffers::{Buffers, Source, Storage, percent_encoded};
+use super::buffers::{Buffers, Source, Storage};
 use super::container::Container;
+use super::uri::percent_encoded;
 use crate::files::content::{Destination, OutputFile};
 use crate::files::error::{FileErrorKind, Place, Problem};
 

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::accessors::{Accessor, Accessors};
-use super::extensions;
+use super::extensions::{self, OwnExtensions};
 use super::json::Value;
 use super::movable::{IndexList, Movable, Primitive, PrimitiveNumber, Staying, Uncommon};
 use super::object::{Object, malformed};
@@ -45,11 +45,13 @@ impl Primitives {
         options: &ReadOptions,
     ) -> Result<Self, Problem> {
         let mut all = Self::default();
+        let own = OwnExtensions::new(root, accessors);
         // JSON is shorter than 4 GiB, so all numbers fit.
         for (mesh_number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
             let mesh = mesh?;
             let name = mesh.text("name").ok().flatten();
-            let of_mesh = extensions::of_mesh(&mesh, accessors, &mut all.order_free_accessors)?;
+            let mut of_mesh = extensions::of_mesh(&mesh, accessors, &mut all.order_free_accessors)?;
+            own.keep(mesh_number as usize, &mut of_mesh);
             let primitives = mesh.objects("primitives")?;
             let has_several = mesh
                 .value("primitives")
@@ -221,7 +223,7 @@ impl PrimitiveReader<'_> {
                 ));
             }
 
-            note_obstacles(&accessor, obstacles);
+            self.note_obstacles(&accessor, obstacles);
             if accessor.is_sparse {
                 let moved = match self.primitive.has("indices") {
                     true => self.accessors.sparse(number, accessor.count, accessor.size),
@@ -255,7 +257,7 @@ impl PrimitiveReader<'_> {
             return Err(malformed(user, problem));
         }
 
-        note_obstacles(&accessor, obstacles);
+        self.note_obstacles(&accessor, obstacles);
         if accessor.is_sparse {
             obstacles.keep_primitive("its indices are sparse");
         }
@@ -315,17 +317,21 @@ impl PrimitiveReader<'_> {
         let numbers = numbers.into_iter().filter_map(|n| u32::try_from(n).ok());
         numbers.collect()
     }
-}
 
-/// Notes what keeps the records of an accessor where they are.
-fn note_obstacles(accessor: &Accessor, obstacles: &mut Obstacles) {
-    if accessor.is_compressed {
-        obstacles.keep_primitive("it is compressed by meshopt: decompress it first");
-    }
-    if let Some(why) = accessor.fixed {
-        obstacles.keep_primitive(why);
-    }
-    if let Some(name) = &accessor.unknown_extension {
-        obstacles.keep_vertices_for_unknown(&accessor.pointer, name);
+    /// Notes what keeps the records of an accessor where they are.
+    fn note_obstacles(&self, accessor: &Accessor, obstacles: &mut Obstacles) {
+        if accessor.is_compressed {
+            obstacles.keep_primitive("it is compressed by meshopt: decompress it first");
+        }
+        if let Some(why) = accessor.fixed {
+            obstacles.keep_primitive(why);
+        }
+        match &accessor.unknown_extension {
+            Some(name) if extensions::keeps_all(name, self.accessors) => {
+                extensions::keep_for_own(name, obstacles);
+            }
+            Some(name) => obstacles.keep_vertices_for_unknown(&accessor.pointer, name),
+            None => {}
+        }
     }
 }

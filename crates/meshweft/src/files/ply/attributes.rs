@@ -13,7 +13,7 @@ use crate::files::rewrite::{StoredMesh, fan};
 use crate::files::text::line_of;
 
 /// Properties that are colors together, the last may be missing.
-const COLORS: [[&str; 4]; 3] = [
+pub(super) const COLORS: [[&str; 4]; 3] = [
     ["red", "green", "blue", "alpha"],
     ["r", "g", "b", "a"],
     [
@@ -25,7 +25,7 @@ const COLORS: [[&str; 4]; 3] = [
 ];
 
 /// Properties that are texture coordinates together.
-const TEXTURES: [[&str; 2]; 3] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]];
+pub(super) const TEXTURES: [[&str; 2]; 3] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]];
 
 /// One attribute, and which properties of the element of its domain hold its components.
 struct Column {

@@ -26,10 +26,11 @@
 //!
 //! [`header`] says what is in the file, [`plan`] what may move, [`rows`] reads values and [`body`]
 //! whole elements, [`notation`] writes corners, [`attributes`] reads what is stored with them, as
-//! the types of [`number`].
+//! the types of [`number`]. [`mod@create`] makes a file of a new mesh.
 
 mod attributes;
 mod body;
+mod create;
 mod header;
 mod notation;
 mod number;
@@ -41,6 +42,7 @@ use crate::files::content::ReadResult;
 use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place};
 use crate::files::face_records::{check_face_count, check_vertex_count};
+use crate::files::new_mesh::NewMesh;
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
 use crate::files::orders::RecordOrders;
@@ -53,6 +55,19 @@ use header::{Element, Encoding, PlyHeader};
 use notation::PlyNotation;
 use plan::Plan;
 use rows::{Ascii, Binary};
+
+/// A PLY file of a new mesh.
+pub(super) fn create(meshes: &[NewMesh<'_>]) -> ReadResult {
+    let [mesh] = meshes else {
+        let text = format!(
+            "a PLY file holds one mesh, not {}: create a .glb",
+            meshes.len()
+        );
+        return Err(FileErrorKind::unsupported(text).at(Place::File));
+    };
+    let bytes = create::bytes(mesh).map_err(|kind| kind.at(Place::File))?;
+    read(bytes, &ReadOptions::default())
+}
 
 /// Reads a PLY file.
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {

@@ -1,0 +1,140 @@
+//! The values of an attribute as an accessor and its bytes.
+
+use serde_json::{Value as NewJson, json};
+
+use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
+use crate::files::error::FileErrorKind;
+
+/// An accessor that is not there yet.
+pub(super) struct NewAccessor {
+    /// Its JSON, without its buffer view.
+    pub(super) json: NewJson,
+    /// Elements at whole words.
+    pub(super) bytes: Vec<u8>,
+    /// The bytes from one element to the next, if there are some between.
+    pub(super) stride: Option<usize>,
+}
+
+/// The accessor of an attribute of vertices.
+///
+/// # Errors
+/// glTF cannot store it.
+pub(super) fn accessor_of(attribute: &Attribute) -> Result<NewAccessor, FileErrorKind> {
+    let info = &attribute.info;
+    let component_type = check(info)?;
+    let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][info.components - 1];
+    let tight = attribute.values.to_le_bytes();
+    let size = info.component_type.size() * info.components;
+    let stride = size.next_multiple_of(4);
+
+    let mut json = json!({
+        "componentType": component_type,
+        "count": attribute.len(),
+        "type": kind,
+    });
+    if info.is_normalized {
+        json["normalized"] = true.into();
+    }
+    // Of positions the format asks for the bounds.
+    if let (Semantic::Position, Values::F32(values)) = (&info.semantic, &attribute.values) {
+        let (min, max) = bounds(values, info.components)?;
+        (json["min"], json["max"]) = (min, max);
+    }
+
+    if stride == size {
+        return Ok(NewAccessor {
+            json,
+            bytes: tight,
+            stride: None,
+        });
+    }
+    let mut bytes = Vec::with_capacity(attribute.len() * stride);
+    for element in tight.chunks_exact(size) {
+        bytes.extend_from_slice(element);
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+    }
+    Ok(NewAccessor {
+        json,
+        bytes,
+        stride: Some(stride),
+    })
+}
+
+/// The number of its component type, if glTF allows it for what it means.
+fn check(info: &AttributeInfo) -> Result<u32, FileErrorKind> {
+    let name = &info.semantic;
+    let refused = |text: String| Err(FileErrorKind::unsupported(text));
+    if info.domain != Domain::Vertex {
+        return refused(format!(
+            "{name} is stored by {:?}: glTF stores attributes of vertices only, so give each corner a \
+             vertex of its own",
+            info.domain
+        ));
+    }
+
+    let component_type = match info.component_type {
+        ComponentType::I8 => 5120,
+        ComponentType::U8 => 5121,
+        ComponentType::I16 => 5122,
+        ComponentType::U16 => 5123,
+        ComponentType::F32 => 5126,
+        other => {
+            return refused(format!(
+                "{name} has components of type {other:?}, which glTF does not store: convert them to \
+                 32-bit floats"
+            ));
+        }
+    };
+
+    let is_real = component_type == 5126;
+    let is_fraction = info.is_normalized && matches!(component_type, 5121 | 5123);
+    let is_morph = info.morph_target.is_some();
+    let (components, is_allowed) = match &info.semantic {
+        Semantic::Position | Semantic::Normal => (3..=3, is_real),
+        Semantic::Tangent if is_morph => (3..=3, is_real),
+        Semantic::Tangent => (4..=4, is_real),
+        Semantic::TexCoord(_) => (2..=2, is_real || is_fraction),
+        Semantic::Color(_) => (3..=4, is_real || is_fraction),
+        Semantic::Joints(_) => (
+            4..=4,
+            matches!(component_type, 5121 | 5123) && !info.is_normalized,
+        ),
+        Semantic::Weights(_) => (4..=4, is_real || is_fraction),
+        Semantic::Other(name) => (1..=4, name.starts_with('_')),
+    };
+    if let (Semantic::Other(name), false) = (&info.semantic, is_allowed) {
+        return refused(format!(
+            "glTF has no attribute {name}: start the name with an underscore, as in _{name}"
+        ));
+    }
+    if !is_allowed || !components.contains(&info.components) {
+        let normalized = if info.is_normalized {
+            ", normalized"
+        } else {
+            ""
+        };
+        return refused(format!(
+            "glTF does not store {name} as {} components of type {:?}{normalized}",
+            info.components, info.component_type
+        ));
+    }
+    Ok(component_type)
+}
+
+/// The smallest and the largest of each component.
+fn bounds(values: &[f32], components: usize) -> Result<(NewJson, NewJson), FileErrorKind> {
+    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+        let text = format!(
+            "the position of vertex {} is not finite, which glTF does not allow",
+            at / components
+        );
+        return Err(FileErrorKind::unsupported(text));
+    }
+    let fold = |pick: fn(f32, f32) -> f32, start: f32| -> NewJson {
+        let of = |component: usize| values.iter().skip(component).step_by(components);
+        // As 64-bit numbers, whose text is exact.
+        let each = (0..components).map(|c| f64::from(of(c).copied().fold(start, pick)));
+        each.collect()
+    };
+    Ok((fold(f32::min, f32::MAX), fold(f32::max, f32::MIN)))
+}

@@ -1,0 +1,214 @@
+//! A PLY file of a new mesh: a binary one, with the names that [`attributes`](super::attributes) reads.
+
+use std::collections::BTreeSet;
+
+use super::attributes::{COLORS, TEXTURES};
+use crate::attribute::{Attribute, ComponentType, Domain, Semantic, Values};
+use crate::files::error::FileErrorKind;
+use crate::files::new_mesh::{NewMesh, NewVertices, vertex_count};
+
+/// The bytes of a file with this mesh.
+///
+/// # Errors
+/// The mesh shares vertices, or a PLY file cannot hold an attribute.
+pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
+    let NewVertices::Stored(attributes) = mesh.vertices else {
+        return refused("a new file has no vertices that could be shared: give their attributes");
+    };
+    let vertex_count = vertex_count(attributes, mesh.faces)?;
+    let vertices = columns(attributes, Domain::Vertex)?;
+    let faces = columns(attributes, Domain::Face)?;
+    let textures = texture_list(attributes)?;
+
+    // The header.
+    let mut header = format!(
+        "ply\nformat binary_little_endian 1.0\ncomment made by meshweft {}\nelement vertex {vertex_count}\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    declare(&vertices, &mut header);
+    // Older readers know no other type of corner.
+    let corner = match i32::try_from(vertex_count) {
+        Ok(_) => "int",
+        Err(_) => "uint",
+    };
+    header += &format!(
+        "element face {}\nproperty list uchar {corner} vertex_indices\n",
+        mesh.faces.len()
+    );
+    if let Some(textures) = &textures {
+        header += &format!(
+            "property list uchar {} texcoord\n",
+            type_name(textures.kind)
+        );
+    }
+    declare(&faces, &mut header);
+    header += "end_header\n";
+
+    // The rows.
+    let row = |columns: &[NewProperty]| columns.iter().map(|column| column.size).sum::<usize>();
+    let face_row = 13 + row(&faces) + textures.as_ref().map_or(0, |t| 1 + t.size);
+    let length = vertex_count * row(&vertices) + mesh.faces.len() * face_row;
+    let mut bytes = header.into_bytes();
+    bytes.reserve_exact(length);
+    for vertex in 0..vertex_count {
+        add_row(&vertices, vertex, &mut bytes);
+    }
+    for (number, face) in mesh.faces.iter().enumerate() {
+        bytes.push(3);
+        bytes.extend(face.iter().flat_map(|corner| corner.to_le_bytes()));
+        if let Some(textures) = &textures {
+            bytes.push(6);
+            textures.add(number, &mut bytes);
+        }
+        add_row(&faces, number, &mut bytes);
+    }
+    Ok(bytes)
+}
+
+/// The values of one attribute, and the names of the properties that hold its components.
+struct NewProperty {
+    names: Vec<String>,
+    kind: ComponentType,
+    /// Bytes of all components of an element.
+    size: usize,
+    bytes: Vec<u8>,
+}
+
+impl NewProperty {
+    fn new(names: Vec<String>, components: usize, values: &Values) -> Self {
+        let kind = values.component_type();
+        Self {
+            names,
+            kind,
+            size: components * kind.size(),
+            bytes: values.to_le_bytes(),
+        }
+    }
+
+    fn add(&self, element: usize, row: &mut Vec<u8>) {
+        row.extend_from_slice(&self.bytes[element * self.size..][..self.size]);
+    }
+}
+
+fn add_row(columns: &[NewProperty], element: usize, bytes: &mut Vec<u8>) {
+    columns.iter().for_each(|column| column.add(element, bytes));
+}
+
+fn declare(columns: &[NewProperty], header: &mut String) {
+    for NewProperty { names, kind, .. } in columns {
+        for name in names {
+            *header += &format!("property {} {name}\n", type_name(*kind));
+        }
+    }
+}
+
+/// The columns of the attributes of a domain, each name once.
+fn columns(attributes: &[Attribute], domain: Domain) -> Result<Vec<NewProperty>, FileErrorKind> {
+    let mut taken = BTreeSet::from(["vertex_indices".to_owned()]);
+    let of_domain = attributes.iter().filter(|a| a.info.domain == domain);
+    let column = |attribute: &Attribute| {
+        let names = names_of(attribute)?;
+        for name in &names {
+            if !taken.insert(name.clone()) {
+                return refused(format!("two properties would be called {name}: rename one"));
+            }
+        }
+        Ok(NewProperty::new(
+            names,
+            attribute.info.components,
+            &attribute.values,
+        ))
+    };
+    of_domain.map(column).collect()
+}
+
+fn names_of(attribute: &Attribute) -> Result<Vec<String>, FileErrorKind> {
+    let info = &attribute.info;
+    let semantic = &info.semantic;
+    if info.morph_target.is_some() {
+        return refused("a PLY file has no morph targets: create a .glb");
+    }
+
+    // The names that have a meaning.
+    let is_unsigned = matches!(
+        info.component_type,
+        ComponentType::U8 | ComponentType::U16 | ComponentType::U32
+    );
+    let known: Option<&[&str]> = match *semantic {
+        Semantic::Position => Some(&["x", "y", "z"]),
+        Semantic::Normal => Some(&["nx", "ny", "nz"]),
+        Semantic::Color(set) => COLORS.get(set as usize).map(|names| &names[..]),
+        Semantic::TexCoord(set) => TEXTURES.get(set as usize).map(|names| &names[..]),
+        _ => None,
+    };
+    let is_color = matches!(semantic, Semantic::Color(_));
+    if info.is_normalized != (is_color && is_unsigned) {
+        return refused(format!(
+            "{semantic}: in a PLY file colors of unsigned integers are fractions, and nothing else is; \
+             convert it to floats"
+        ));
+    }
+    if let Some(names) = known {
+        let least = if is_color { 3 } else { names.len() };
+        return match names
+            .get(..info.components)
+            .filter(|names| names.len() >= least)
+        {
+            Some(names) => Ok(names.iter().map(|&name| name.to_owned()).collect()),
+            None => refused(format!(
+                "{semantic} has {} components, a PLY file stores {least} of it",
+                info.components
+            )),
+        };
+    }
+
+    // Any others by their own name.
+    let name = semantic.to_string();
+    let is_word = !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_graphic());
+    match (is_word, info.components) {
+        (false, _) | (_, 0) => refused(format!("{name:?} cannot be the name of a PLY property")),
+        (true, 1) => Ok(vec![name]),
+        (true, components) => Ok((0..components).map(|i| format!("{name}_{i}")).collect()),
+    }
+}
+
+/// Texture coordinates of corners, which PLY files keep as a list of each face.
+fn texture_list(attributes: &[Attribute]) -> Result<Option<NewProperty>, FileErrorKind> {
+    let mut list = None;
+    for attribute in attributes
+        .iter()
+        .filter(|a| a.info.domain == Domain::Corner)
+    {
+        let info = &attribute.info;
+        let is_it = info.semantic == Semantic::TexCoord(0)
+            && info.components == 2
+            && info.morph_target.is_none()
+            && !info.is_normalized;
+        if !is_it {
+            return refused(format!(
+                "{} is stored by corner: of corners a PLY file holds TEXCOORD_0 alone, so give each \
+                 corner a vertex of its own",
+                info.semantic
+            ));
+        }
+        list = Some(NewProperty::new(Vec::new(), 6, &attribute.values));
+    }
+    Ok(list)
+}
+
+fn type_name(kind: ComponentType) -> &'static str {
+    match kind {
+        ComponentType::I8 => "char",
+        ComponentType::U8 => "uchar",
+        ComponentType::I16 => "short",
+        ComponentType::U16 => "ushort",
+        ComponentType::I32 => "int",
+        ComponentType::U32 => "uint",
+        ComponentType::F32 => "float",
+        ComponentType::F64 => "double",
+    }
+}
+
+fn refused<T>(text: impl Into<String>) -> Result<T, FileErrorKind> {
+    Err(FileErrorKind::unsupported(text))
+}
