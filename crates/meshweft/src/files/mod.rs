@@ -14,6 +14,7 @@
 //! | where bytes come from and go to | `disk`, `surroundings` |
 
 mod content;
+mod decoded;
 mod disk;
 mod document;
 mod edit;

@@ -5,6 +5,8 @@
 
 use std::ops::Range;
 
+use super::decoded::note_floats;
+
 /// Whether `byte` separates tokens within a line.
 #[inline]
 pub(super) fn is_blank(byte: u8) -> bool {
@@ -138,6 +140,12 @@ pub(super) fn whole_number(token: &[u8]) -> Option<i64> {
 /// The coordinate that `token` is; `nan` and `inf` are coordinates too.
 #[inline]
 pub(super) fn coordinate(token: &[u8]) -> Option<f32> {
+    note_floats(1);
+    parsed(token)
+}
+
+#[inline]
+fn parsed(token: &[u8]) -> Option<f32> {
     std::str::from_utf8(token).ok()?.parse().ok()
 }
 
@@ -162,7 +170,7 @@ pub(super) fn is_coordinate(token: &[u8]) -> bool {
         at += 1 + sign + exponent;
         found = exponent;
     }
-    (found > 0 && at == token.len()) || coordinate(token).is_some()
+    (found > 0 && at == token.len()) || parsed(token).is_some()
 }
 
 /// Appends `number` in decimal digits.

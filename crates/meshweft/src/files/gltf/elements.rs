@@ -10,6 +10,7 @@ use super::patch;
 use super::sparse::Sparse;
 use super::strided_records::StridedRecords;
 use crate::attribute::{ComponentType, Values};
+use crate::files::decoded::note_floats;
 use crate::files::error::Problem;
 
 /// What the elements of an accessor are, and where they are stored.
@@ -119,6 +120,7 @@ impl ElementReader<'_> {
         // There may be bytes between the columns of a matrix.
         let (column_size, _) = self.shape.sizes(WIDTH);
         let components = columns * rows;
+        note_floats(self.count * components);
         let add = |record: &[u8], numbers: &mut Vec<T>| {
             for column in 0..columns {
                 let bytes = &record[column * column_size..][..rows * WIDTH];

@@ -1,6 +1,7 @@
 //! The types of numbers that a PLY file stores.
 
 use crate::attribute::Values;
+use crate::files::decoded::note_floats;
 use crate::files::text::{coordinate, whole_number};
 
 /// A type that values are read as. It holds every number of the type that the file declares.
@@ -61,10 +62,12 @@ impl PlyNumber for f32 {
         number as f32
     }
     fn of_f32(number: f32) -> Self {
+        note_floats(1);
         number
     }
     #[expect(clippy::cast_possible_truncation, reason = "doubles are read as such")]
     fn of_f64(number: f64) -> Self {
+        note_floats(1);
         number as f32
     }
     fn values(numbers: Vec<Self>) -> Values {
@@ -75,6 +78,7 @@ impl PlyNumber for f32 {
 impl PlyNumber for f64 {
     const KIND: &'static str = "a number";
     fn of_token(token: &[u8]) -> Option<Self> {
+        note_floats(1);
         std::str::from_utf8(token).ok()?.parse().ok()
     }
     #[expect(clippy::cast_precision_loss, reason = "at most 32 bits")]
@@ -82,9 +86,11 @@ impl PlyNumber for f64 {
         number as f64
     }
     fn of_f32(number: f32) -> Self {
+        note_floats(1);
         number.into()
     }
     fn of_f64(number: f64) -> Self {
+        note_floats(1);
         number
     }
     fn values(numbers: Vec<Self>) -> Values {

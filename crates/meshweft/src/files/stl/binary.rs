@@ -3,6 +3,7 @@
 use super::attributes::{self, attribute_bytes, normal, position};
 use super::facets::Facets;
 use crate::attribute::{Attribute, AttributeInfo, Values};
+use crate::files::decoded::note_floats;
 use crate::files::error::no_attribute;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
@@ -109,10 +110,12 @@ impl Notation for BinaryNotation {
         let values = if *info == position() {
             Values::F32(attributes::positions(stored, |facet| {
                 let bits = positions(&stored.source[facet.span.clone()]);
+                note_floats(9);
                 Ok(bits.map(|corner| corner.map(f32::from_bits)))
             })?)
         } else if *info == normal() {
             let numbers = records.flat_map(|record| record[..NORMAL].as_chunks().0);
+            note_floats(3 * stored.faces.len());
             Values::F32(numbers.map(|&bytes| f32::from_le_bytes(bytes)).collect())
         } else if *info == attribute_bytes() {
             let numbers = records.flat_map(|record| record[FACET - 2..].as_chunks().0);
