@@ -8,6 +8,7 @@ use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
 use super::new_mesh::NewMesh;
 use super::note::Note;
+use super::placing::{Beside, Placed};
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -37,30 +38,39 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
         let text = "meshes can be added to .gltf and .glb files only";
         Err(FileErrorKind::unsupported(text).at(Place::File))
     }
-    /// Every file to write when the document goes there, the main one last.
-    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem>;
+    /// The files beside the main one.
+    fn beside(&self) -> Vec<Beside<'_>> {
+        Vec::new()
+    }
+    /// The text of the main file as it was read, if nothing in it has changed.
+    fn unchanged_text(&self) -> Option<&[u8]> {
+        None
+    }
+    /// Every file of the document, each beside the main one as `placed` says, the main one last.
+    fn files(&self, path: &Path, placed: &[Placed]) -> Result<Vec<OutputFile<'_>>, Problem>;
     /// The size of all files beside the main one that were read.
     fn size_beside(&self) -> u64 {
         0
     }
 }
 
-/// Where the files of a document go, and which of them.
-pub(super) struct Destination<'a> {
-    /// The path of the main file. The others go beside it.
-    pub(super) path: &'a Path,
-    /// Whether a file beside the main one gets a new name if it has changed: the old one must stay
-    /// where the new one goes.
-    pub(super) renames_changed: bool,
-    /// Whether files beside the main one are written that have not changed.
-    pub(super) includes_unchanged: bool,
-}
-
 /// A file to be written, its bytes made as they are written.
 pub(super) struct OutputFile<'a> {
     pub(super) path: PathBuf,
+    pub(super) place: OutputPlace,
     pub(super) write: Box<WriteFile<'a>>,
 }
 
 /// Writes all bytes of a file, in large pieces.
 pub(super) type WriteFile<'a> = dyn Fn(&mut dyn io::Write) -> io::Result<()> + 'a;
+
+/// What is at the place of a file to be written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum OutputPlace {
+    /// The file itself, with these bytes.
+    IsThere,
+    /// Nothing, and nothing is replaced.
+    IsFree,
+    /// Anything: it is replaced.
+    IsReplaced,
+}

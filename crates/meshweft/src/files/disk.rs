@@ -2,6 +2,7 @@
 //!
 //! A name that ends in `.gz` stands for a compressed file, on the way in and on the way out.
 
+use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read};
@@ -12,7 +13,7 @@ use flate2::Compression;
 use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
 
-use super::content::OutputFile;
+use super::content::{OutputFile, OutputPlace};
 use super::error::FileErrorKind;
 use crate::limits::Limits;
 
@@ -135,6 +136,17 @@ pub(super) fn is_same_folder(a: &Path, b: &Path) -> bool {
     folder(a) == folder(b)
 }
 
+/// The files of a folder, as paths that start as the folder is spelled.
+pub(super) fn files_of(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(spelled_out(folder))
+        .into_iter()
+        .flatten()
+        .flatten();
+    entries
+        .map(|entry| folder.join(entry.file_name()))
+        .collect()
+}
+
 /// A folder by a name that is not empty.
 fn spelled_out(folder: &Path) -> &Path {
     match folder.as_os_str().is_empty() {
@@ -143,65 +155,166 @@ fn spelled_out(folder: &Path) -> &Path {
     }
 }
 
-/// Writes files one after the other, with the folders that those beside `main` need; how many bytes
-/// they take on the disk.
-///
-/// # Errors
-/// What the system says, and of which file or folder.
-pub(super) fn write_files(
-    files: &[OutputFile<'_>],
-    main: &Path,
-) -> Result<u64, (PathBuf, io::Error)> {
-    let mut size = 0;
-    for file in files {
-        // Buffers of a glTF may stand in folders below that of the main file.
-        if let Some(folder) = file.path.parent().filter(|_| file.path != main) {
-            fs::create_dir_all(folder).map_err(|error| (folder.to_owned(), error))?;
-        }
-        size += write_renamed(file).map_err(|error| (file.path.clone(), error))?;
+/// Whether a file has these bytes, decompressed if its name ends in `.gz`.
+pub(super) fn holds(path: &Path, bytes: &[u8]) -> io::Result<bool> {
+    let (mut source, size) = source(path)?;
+    if !is_gzip(path) && size != bytes.len() as u64 {
+        return Ok(false);
     }
-    Ok(size)
+    let mut piece = vec![0; 1 << 16];
+    let mut rest = bytes;
+    loop {
+        let count = source.read(&mut piece)?;
+        if count == 0 {
+            return Ok(rest.is_empty());
+        }
+        match rest.strip_prefix(&piece[..count]) {
+            Some(after) => rest = after,
+            None => return Ok(false),
+        }
+    }
 }
 
-/// Writes to a temporary file in the same folder and renames it over `path`; how many bytes it
-/// takes on the disk.
+/// Writes the files of a document so that, whenever this ends, the main file and those that it names are
+/// whole, all old or all new: all of them are written and on the disk before the first has its name, and
+/// the main file, the last in the list, has it last. Where no main file was, the disk may take its time.
 ///
-/// A link is followed, and a file that is replaced keeps its permissions.
-fn write_renamed(output: &OutputFile<'_>) -> io::Result<u64> {
-    // Two threads may write one buffer that two files share.
-    static NUMBER: AtomicU64 = AtomicU64::new(0);
-    let path = &fs::canonicalize(&output.path).unwrap_or_else(|_| output.path.clone());
-    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}-{number}{TEMPORARY}", std::process::id()));
-    let temporary = path.with_file_name(name);
+/// Folders that those beside the main one need are made. How many bytes each takes on the disk.
+///
+/// # Errors
+/// What the system says, and of which file or folder; of kind [`io::ErrorKind::AlreadyExists`] if
+/// something now has a name that was free. What was there is whole then.
+pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf, io::Error)> {
+    let (Some(main), of) = (files.last(), |error, path: &Path| (path.to_owned(), error)) else {
+        return Ok(Vec::new());
+    };
+    let is_synced = main.path.exists();
 
-    let write = || -> io::Result<u64> {
-        let mut file = fs::File::create(&temporary)?;
+    // All bytes, under temporary names.
+    let mut written = Vec::new();
+    let mut sizes = Vec::new();
+    for file in files {
+        if file.place == OutputPlace::IsThere {
+            sizes.push(fs::metadata(&file.path).map_or(0, |data| data.len()));
+            continue;
+        }
+        // Buffers of a glTF may stand in folders below that of the main file.
+        if let Some(folder) = file.path.parent().filter(|_| file.path != main.path) {
+            fs::create_dir_all(folder).map_err(|error| of(error, folder))?;
+        }
+        let new = Temporary::new(file, is_synced).map_err(|error| of(error, &file.path))?;
+        sizes.push(new.size);
+        written.push((file, new));
+    }
+
+    // Their names.
+    for (file, new) in written {
+        // What the main file names must have its name before.
+        if is_synced && std::ptr::eq(file, main) {
+            sync_folders(files);
+        }
+        let named = new.rename(file.place == OutputPlace::IsFree);
+        named.map_err(|error| of(error, &file.path))?;
+    }
+    if is_synced {
+        sync_folders(&files[files.len() - 1..]);
+    }
+    Ok(sizes)
+}
+
+/// Makes the names of files last. Systems without a way to do this do it on their own.
+fn sync_folders(files: &[OutputFile<'_>]) {
+    let folders: BTreeSet<&Path> = files.iter().filter_map(|file| file.path.parent()).collect();
+    for folder in folders {
+        if let Ok(folder) = fs::File::open(spelled_out(folder)) {
+            let _ = folder.sync_all();
+        }
+    }
+}
+
+/// Removes files that nothing needs any more; what cannot be removed does no harm.
+pub(super) fn remove(files: &[PathBuf]) {
+    for file in files {
+        let _ = fs::remove_file(file);
+    }
+}
+
+/// A file with all its bytes on the disk that does not have its name yet; without it, it goes away.
+struct Temporary {
+    path: PathBuf,
+    target: PathBuf,
+    size: u64,
+    /// Locked as long as it is needed.
+    file: fs::File,
+}
+
+impl Temporary {
+    /// Writes a file in the folder of its target. A link is followed, and a file that is replaced keeps
+    /// its permissions.
+    fn new(output: &OutputFile<'_>, is_synced: bool) -> io::Result<Self> {
+        // Two threads may write one buffer that two files share.
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        let target = fs::canonicalize(&output.path).unwrap_or_else(|_| output.path.clone());
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let mut name = OsString::from(".");
+        name.push(target.file_name().unwrap_or_default());
+        name.push(format!(".{}-{number}{TEMPORARY}", std::process::id()));
+        let path = target.with_file_name(name);
+
+        let file = fs::File::create(&path)?;
         // Not every file system has locks; without one nobody clears up after a dead writer.
         let _ = file.lock();
+        // From here on it goes away if anything fails.
+        let mut new = Self {
+            path,
+            target,
+            size: 0,
+            file,
+        };
+        new.write(output)?;
+        if is_synced {
+            new.file.sync_all()?;
+        }
+        Ok(new)
+    }
 
-        if is_gzip(path) {
+    fn write(&mut self, output: &OutputFile<'_>) -> io::Result<()> {
+        let file = &mut self.file;
+        if is_gzip(&self.target) {
             // No time stamp in the header: the same bytes in give the same bytes out.
-            let mut encoder = GzEncoder::new(&mut file, Compression::default());
+            let mut encoder = GzEncoder::new(&mut *file, Compression::default());
             (output.write)(&mut encoder)?;
             encoder.finish()?;
         } else {
-            (output.write)(&mut file)?;
+            (output.write)(file)?;
         }
-        let size = file.metadata()?.len();
-
-        if let Ok(replaced) = fs::metadata(path) {
+        self.size = file.metadata()?.len();
+        if let Ok(replaced) = fs::metadata(&self.target) {
             file.set_permissions(replaced.permissions())?;
-            // The old bytes must not be gone before the new ones are on the disk.
-            file.sync_all()?;
         }
-        fs::rename(&temporary, path)?;
-        Ok(size)
-    };
-    write().inspect_err(|_| {
-        // The half-written file is of no use; the error that led here is the one to report.
-        let _ = fs::remove_file(&temporary);
-    })
+        Ok(())
+    }
+
+    /// Gives it its name; with `is_free`, only if nothing has it.
+    fn rename(self, is_free: bool) -> io::Result<()> {
+        if is_free {
+            // Taken first, and then replaced: there is no rename that replaces nothing everywhere.
+            fs::OpenOptions::new()
+                .write(true)
+                .create_new(true)
+                .open(&self.target)?;
+        }
+        fs::rename(&self.path, &self.target).inspect_err(|_| {
+            if is_free {
+                let _ = fs::remove_file(&self.target);
+            }
+        })
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        // After the rename there is nothing of this name.
+        let _ = fs::remove_file(&self.path);
+    }
 }

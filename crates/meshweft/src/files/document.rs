@@ -1,9 +1,10 @@
 //! A file in memory: its meshes as values, its bytes ready to be patched.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
-use super::content::{Content, Destination, OutputFile};
-use super::disk::{is_same_folder, read_limited, write_files};
+use super::content::{Content, OutputFile, OutputPlace};
+use super::disk::{holds, is_same_folder, read_limited, remove, write_files};
 use super::edit::{Edit, check_order};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
@@ -11,9 +12,11 @@ use super::format::Format;
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
+use super::placing::{Placed, Target};
 use super::surroundings::{Surroundings, check_size};
 use super::{gltf, obj, off, ply, stl, vrml};
 use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
+use crate::limits::Limits;
 
 /// A mesh file whose faces and vertices can be permuted in place.
 ///
@@ -289,12 +292,13 @@ impl Document {
         Ok(())
     }
 
-    /// Writes the file, and the buffers beside it, each under a temporary name that is then
-    /// renamed: what was there before is whole until the new file is.
+    /// Writes the file and the buffers beside it, so that whenever this ends, what was there is whole, or
+    /// what is new is. No file is replaced but `path` and the buffers that the file at `path` names.
     ///
-    /// In the folder that its buffers were read from, those that have not changed are left alone, and
-    /// under another name the others get new names, so that the source stays whole. Elsewhere all of
-    /// them are written, under their own names.
+    /// In the folder that its buffers were read from, those that have not changed are left alone. Another
+    /// buffer keeps its name if it is the only file that changes, or if nothing has that name; else it is
+    /// called `name.bin` after `path`, or `name.0123abcd.bin` after what is in it. Buffers that the file at
+    /// `path` named before, and now does not, are removed, unless another glTF of the folder names them.
     ///
     /// A name that ends in `.gz` is compressed.
     ///
@@ -311,23 +315,73 @@ impl Document {
             return Err(in_file(FileErrorKind::unsupported(feature).at(Place::File)));
         }
 
+        // What is there.
+        let beside = self.content.beside();
         let folder = self.folder.as_deref();
         let is_beside = folder.is_some_and(|folder| is_same_folder(folder, folder_of(path)));
         let is_over = is_beside && self.path.file_name() == path.file_name();
-        let to = Destination {
-            path,
-            renames_changed: is_beside && !is_over,
-            includes_unchanged: !is_beside,
+        let named: Vec<PathBuf> = match is_over {
+            true => beside
+                .iter()
+                .map(|b| path.with_file_name(b.relative))
+                .collect(),
+            false if beside.is_empty() || !path.exists() => Vec::new(),
+            // What is no glTF names nothing.
+            false => gltf::external_buffers(path, &Limits::default()).unwrap_or_default(),
         };
-        let files = self.content.files(&to).map_err(in_file)?;
-        let bytes = write_files(&files, path).map_err(|(path, error)| {
-            let problem = FileErrorKind::Io(error).at(Place::File);
-            problem.in_file(&path, Some(self.format))
-        })?;
-        Ok(Written {
-            files: files.into_iter().map(|file| file.path).collect(),
-            bytes,
-        })
+        let target = Target {
+            path,
+            is_beside,
+            is_over,
+            named: &named,
+            text: self.content.unchanged_text(),
+            holds,
+        };
+
+        let mut tries = 0;
+        loop {
+            let placed = target.place(&beside).map_err(in_file)?;
+            let mut files = self.content.files(path, &placed).map_err(in_file)?;
+            if let Some(main) = files.last_mut().filter(|_| !is_over) {
+                main.place = OutputPlace::IsReplaced;
+            }
+            match write_files(&files) {
+                Ok(sizes) => {
+                    self.remove_left_over(&target.left_over(&beside, &placed), path);
+                    // What lies beside the source already is not part of what was written.
+                    let is_main = |file: &OutputFile<'_>| file.path == path;
+                    let is_there = |file: &OutputFile<'_>| file.place == OutputPlace::IsThere;
+                    let sized = files.into_iter().zip(sizes);
+                    let (files, sizes): (_, Vec<u64>) = sized
+                        .filter(|(file, _)| !is_beside || !is_there(file) || is_main(file))
+                        .map(|(file, size)| (file.path, size))
+                        .unzip();
+                    return Ok(Written {
+                        files,
+                        bytes: sizes.iter().sum(),
+                    });
+                }
+                // Somebody else took a name: look again.
+                Err((_, error)) if error.kind() == io::ErrorKind::AlreadyExists && tries < 16 => {
+                    tries += 1;
+                }
+                Err((path, error)) => {
+                    let problem = FileErrorKind::Io(error).at(Place::File);
+                    return Err(problem.in_file(&path, Some(self.format)));
+                }
+            }
+        }
+    }
+
+    /// Removes buffers, unless a glTF of the folder names them.
+    fn remove_left_over(&self, files: &[PathBuf], main: &Path) {
+        if files.is_empty() {
+            return;
+        }
+        let named = gltf::buffers_of_folder(folder_of(main));
+        let is_free = |file: &&PathBuf| !named.contains(*file);
+        let free: Vec<PathBuf> = files.iter().filter(is_free).cloned().collect();
+        remove(&free);
     }
 
     /// Every file of the document with its bytes, the main one last: what [`Surroundings::Memory`] takes.
@@ -346,14 +400,24 @@ impl Document {
     pub fn to_bytes(&self, name: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, FileError> {
         let in_file = |problem: Problem| problem.in_file(name, Some(self.format));
         let main = name.file_name().map_or(name, Path::new);
+        let beside = self.content.beside();
         let is_beside = folder_of(name) == folder_of(&self.path);
-        let to = Destination {
-            path: main,
-            renames_changed: is_beside && name.file_name() != self.path.file_name(),
-            includes_unchanged: true,
+        let placed = match is_beside && name.file_name() != self.path.file_name() {
+            false => vec![Placed::New; beside.len()],
+            true => {
+                let target = Target {
+                    path: main,
+                    is_beside: true,
+                    is_over: false,
+                    named: &[],
+                    text: None,
+                    holds: |_, _| Err(io::ErrorKind::NotFound.into()),
+                };
+                target.place(&beside).map_err(in_file)?
+            }
         };
 
-        let files = self.content.files(&to).map_err(in_file)?;
+        let files = self.content.files(main, &placed).map_err(in_file)?;
         let with_bytes = |file: OutputFile<'_>| {
             let bytes = bytes_of(&file).map_err(in_file)?;
             Ok((file.path, bytes))
@@ -367,12 +431,8 @@ impl Document {
     /// # Errors
     /// As [`to_bytes`](Self::to_bytes).
     pub fn to_main_bytes(&self) -> Result<Vec<u8>, FileError> {
-        let to = Destination {
-            path: &self.path,
-            renames_changed: false,
-            includes_unchanged: false,
-        };
-        let files = self.content.files(&to);
+        let placed = vec![Placed::Stays; self.content.beside().len()];
+        let files = self.content.files(&self.path, &placed);
         let bytes = files.and_then(|files| files.last().map_or(Ok(Vec::new()), bytes_of));
         bytes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
     }

@@ -29,6 +29,7 @@ mod obj;
 mod off;
 mod options;
 mod orders;
+mod placing;
 mod ply;
 mod record_file;
 mod rewrite;

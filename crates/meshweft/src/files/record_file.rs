@@ -2,12 +2,14 @@
 //!
 //! The source is never changed: orders add up, and the output is spliced when it is asked for.
 
+use std::path::Path;
 use std::{fmt, io};
 
-use super::content::{Content, Destination, OutputFile};
+use super::content::{Content, OutputFile, OutputPlace};
 use super::entry::MeshEntry;
 use super::error::Problem;
 use super::orders::{RecordOrders, record_in};
+use super::placing::Placed;
 use super::rewrite::{Change, Notation, Rewrite, StoredMesh};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
@@ -129,9 +131,10 @@ impl<N: Notation> Content for RecordFile<N> {
         }
     }
 
-    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem> {
+    fn files(&self, path: &Path, _: &[Placed]) -> Result<Vec<OutputFile<'_>>, Problem> {
         Ok(vec![OutputFile {
-            path: to.path.to_owned(),
+            path: path.to_owned(),
+            place: OutputPlace::IsReplaced,
             write: Box::new(|sink| self.write(sink)),
         }])
     }

@@ -66,13 +66,13 @@ mod sparse;
 mod strided_records;
 mod uri;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::content::{Content, Destination, OutputFile, ReadResult};
-use super::disk::{read_limited, read_start};
+use super::content::{Content, OutputFile, ReadResult};
+use super::disk::{files_of, read_limited, read_start};
 use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
@@ -80,6 +80,7 @@ use super::format::Format;
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
+use super::placing::{Beside, Placed};
 use super::surroundings::Surroundings;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::limits::Limits;
@@ -228,6 +229,18 @@ pub fn external_buffers(path: &Path, limits: &Limits) -> Result<Vec<PathBuf>, Fi
     read().map_err(|problem: Problem| problem.in_file(path, format))
 }
 
+/// The files that the buffers of the glTF files of a folder name; of what cannot be read, none.
+pub(super) fn buffers_of_folder(folder: &Path) -> BTreeSet<PathBuf> {
+    let paths = files_of(folder).into_iter();
+    let gltf = paths.filter(|path| {
+        let format = Format::of_path(path);
+        matches!(format, Some(Format::Gltf | Format::Glb))
+    });
+    let named =
+        gltf.flat_map(|path| external_buffers(&path, &Limits::default()).unwrap_or_default());
+    named.collect()
+}
+
 fn check_version(root: &Object) -> Result<(), Problem> {
     let Some(asset) = root.object("asset")? else {
         return Ok(());
@@ -245,6 +258,14 @@ fn check_version(root: &Object) -> Result<(), Problem> {
 impl GltfFile {
     fn json(&self) -> &[u8] {
         &self.container.head[self.container.json.clone()]
+    }
+
+    fn output(&self) -> Output<'_> {
+        Output {
+            container: &self.container,
+            buffers: &self.buffers,
+            uri_spans: &self.view.uri_spans,
+        }
     }
 
     /// Moves the faces of a mesh; returns the mesh if its indices are then to be written.
@@ -342,13 +363,16 @@ impl Content for GltfFile {
         GltfFile::append(self, meshes, values)
     }
 
-    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem> {
-        let output = Output {
-            container: &self.container,
-            buffers: &self.buffers,
-            uri_spans: &self.view.uri_spans,
-        };
-        output.files(to)
+    fn beside(&self) -> Vec<Beside<'_>> {
+        self.output().beside()
+    }
+
+    fn unchanged_text(&self) -> Option<&[u8]> {
+        self.output().unchanged_text()
+    }
+
+    fn files(&self, path: &Path, placed: &[Placed]) -> Result<Vec<OutputFile<'_>>, Problem> {
+        self.output().files(path, placed)
     }
 
     fn size_beside(&self) -> u64 {

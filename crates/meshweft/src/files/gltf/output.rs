@@ -3,14 +3,15 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::base64;
 use super::buffers::{Buffers, Source, Storage};
 use super::container::Container;
 use super::uri::percent_encoded;
-use crate::files::content::{Destination, OutputFile};
+use crate::files::content::{OutputFile, OutputPlace};
 use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::placing::{Beside, Placed};
 
 /// What is needed to write the file again.
 pub(super) struct Output<'a> {
@@ -21,11 +22,39 @@ pub(super) struct Output<'a> {
 }
 
 impl<'a> Output<'a> {
-    /// The files to write when the document goes there, the main one last.
-    pub(super) fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'a>>, Problem> {
-        let path = to.path;
+    /// The files beside the main one.
+    pub(super) fn beside(&self) -> Vec<Beside<'a>> {
+        let storages = self.buffers.storages.iter();
+        let external = storages.filter_map(|storage| match &storage.source {
+            Source::External(relative) => Some(Beside {
+                relative,
+                bytes: &storage.bytes,
+                is_changed: storage.is_changed,
+            }),
+            Source::Binary | Source::Data { .. } => None,
+        });
+        external.collect()
+    }
+
+    /// The text as it was read, if no data in it has changed.
+    pub(super) fn unchanged_text(&self) -> Option<&'a [u8]> {
+        let in_text = |storage: &Storage| !matches!(storage.source, Source::External(_));
+        let storages = &self.buffers.storages;
+        let is_changed = storages
+            .iter()
+            .any(|storage| in_text(storage) && storage.is_changed);
+        (!self.container.is_glb() && !is_changed).then_some(self.container.head.as_slice())
+    }
+
+    /// The files of the document, those beside the main one as `placed` says, the main one last.
+    pub(super) fn files(
+        &self,
+        path: &Path,
+        placed: &[Placed],
+    ) -> Result<Vec<OutputFile<'a>>, Problem> {
         let mut files = Vec::new();
         let mut new_uris: Vec<(usize, String)> = Vec::new();
+        let mut placed = placed.iter();
 
         for (number, storage) in self.buffers.storages.iter().enumerate() {
             match &storage.source {
@@ -37,75 +66,28 @@ impl<'a> Output<'a> {
                     }
                 }
                 Source::External(relative) => {
-                    if !storage.is_changed && !to.includes_unchanged {
-                        continue;
-                    }
-                    let mut target = path.with_file_name(relative);
-                    if storage.is_changed && to.renames_changed {
-                        // The source still needs its own buffer.
-                        let name = self.new_name(path, number)?;
-                        let uri = percent_encoded(&name);
+                    let placed = placed.next().unwrap_or(&Placed::Stays);
+                    if let Placed::Renamed { name, .. } = placed {
+                        let uri = percent_encoded(name);
                         let over = self.buffers.buffers_over(number);
                         new_uris.extend(over.map(|buffer| (buffer, uri.clone())));
-                        target = path.with_file_name(name);
                     }
-                    if target == path {
-                        let feature = format!(
-                            "{} is the name of a buffer of the file: choose another for the output",
-                            path.display()
-                        );
-                        return Err(FileErrorKind::unsupported(feature).at(Place::File));
-                    }
-                    files.push(OutputFile {
-                        path: target,
-                        write: Box::new(|sink| sink.write_all(&storage.bytes)),
-                    });
+                    files.push(buffer_file(path, relative, &storage.bytes, placed)?);
                 }
             }
         }
 
+        let is_same = new_uris.is_empty() && self.unchanged_text().is_some();
         let parts = self.main_file(new_uris);
         files.push(OutputFile {
             path: path.to_owned(),
+            place: match is_same {
+                true => OutputPlace::IsThere,
+                false => OutputPlace::IsReplaced,
+            },
             write: Box::new(move |sink| parts.iter().try_for_each(|part| sink.write_all(part))),
         });
         Ok(files)
-    }
-
-    /// A name for a changed buffer in the folder where the old one must stay.
-    fn new_name(&self, path: &Path, storage: usize) -> Result<String, Problem> {
-        let name = path.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| {
-            let feature = "the name of a buffer beside the output would not be UTF-8 text: choose \
-                           another name";
-            FileErrorKind::unsupported(feature).at(Place::File)
-        })?;
-        let stem = name.split_once('.').map_or(name, |(stem, _)| stem);
-        // Only the endings are cut: `scene.v2.gltf` stays `scene.v2`.
-        let lower = name.to_ascii_lowercase();
-        let ending = [".gltf.gz", ".glb.gz", ".gltf", ".glb"]
-            .into_iter()
-            .find(|ending| lower.ends_with(ending));
-        let stem = ending.map_or(stem, |ending| &name[..name.len() - ending.len()]);
-
-        let is_used = |candidate: &str| {
-            let source = Source::External(PathBuf::from(candidate));
-            self.buffers.storages.iter().any(|s| s.source == source)
-        };
-        let is_moved = |s: &&Storage| s.is_changed && matches!(s.source, Source::External(_));
-        let moved = self.buffers.storages.iter().filter(is_moved).count();
-        let plain = format!("{stem}.bin");
-        if moved == 1 && !is_used(&plain) {
-            return Ok(plain);
-        }
-
-        // Steps of the number of storages keep the names of two of them apart.
-        let step = self.buffers.storages.len();
-        let names = (storage..).step_by(step).map(|n| format!("{stem}.{n}.bin"));
-        Ok(names
-            .into_iter()
-            .find(|name| !is_used(name))
-            .unwrap_or(plain))
     }
 
     /// The main file in pieces, with these new URIs of buffers.
@@ -139,4 +121,39 @@ impl<'a> Output<'a> {
         parts.push(tail.as_slice().into());
         parts
     }
+}
+
+/// A buffer where it goes.
+fn buffer_file<'a>(
+    main: &Path,
+    relative: &Path,
+    bytes: &'a [u8],
+    placed: &Placed,
+) -> Result<OutputFile<'a>, Problem> {
+    let (relative, place) = match placed {
+        Placed::Stays => (relative, OutputPlace::IsThere),
+        Placed::New => (relative, OutputPlace::IsFree),
+        Placed::Replaces => (relative, OutputPlace::IsReplaced),
+        Placed::Renamed {
+            name,
+            is_there: true,
+        } => (Path::new(name), OutputPlace::IsThere),
+        Placed::Renamed {
+            name,
+            is_there: false,
+        } => (Path::new(name), OutputPlace::IsFree),
+    };
+    let path = main.with_file_name(relative);
+    if path == main {
+        let feature = format!(
+            "{} is the name of a buffer of the file: choose another for the output",
+            main.display()
+        );
+        return Err(FileErrorKind::unsupported(feature).at(Place::File));
+    }
+    Ok(OutputFile {
+        path,
+        place,
+        write: Box::new(|sink| sink.write_all(bytes)),
+    })
 }

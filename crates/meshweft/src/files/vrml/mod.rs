@@ -28,15 +28,17 @@ mod scene;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 use std::{fmt, io};
 
-use super::content::{Content, Destination, OutputFile, ReadResult};
+use super::content::{Content, OutputFile, OutputPlace, ReadResult};
 use super::entry::MeshEntry;
 use super::error::no_attribute;
 use super::error::{FileErrorKind, Place, Problem};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::{RecordOrders, record_in};
+use super::placing::Placed;
 use super::rewrite::{Change, Rewrite};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
@@ -328,9 +330,10 @@ impl Content for VrmlFile {
         }
     }
 
-    fn files(&self, to: &Destination<'_>) -> Result<Vec<OutputFile<'_>>, Problem> {
+    fn files(&self, path: &Path, _: &[Placed]) -> Result<Vec<OutputFile<'_>>, Problem> {
         Ok(vec![OutputFile {
-            path: to.path.to_owned(),
+            path: path.to_owned(),
+            place: OutputPlace::IsReplaced,
             write: Box::new(|sink| self.write(sink)),
         }])
     }
