@@ -59,6 +59,7 @@ def read(program: str, file: Path, scratch: Path) -> Document:
     # Raises
     `Refused`; `RuntimeError` if the program fails in another way.
     """
+    # Run the program.
     path = scratch / "values"
     ran = subprocess.run([program, str(file), str(path)], capture_output=True, text=True)
     if ran.returncode == 1:
@@ -68,6 +69,8 @@ def read(program: str, file: Path, scratch: Path) -> Document:
 
     # Split at line feeds alone: names may hold what Python takes for line ends.
     lines = [json.loads(line) for line in ran.stdout.split("\n") if line]
+
+    # Each line takes its share of the values.
     document, content, at = Document(), path.read_bytes(), 0
     for line in lines:
         values = content[at : at + line.get("bytes", 0)]
@@ -81,6 +84,8 @@ def read(program: str, file: Path, scratch: Path) -> Document:
             rows = np.frombuffer(values, f"<{line['type']}").reshape(line["count"], line["components"])
             labels = (line[key] for key in ("domain", "normalized", "error"))
             document.meshes[-1].attributes.append(Attribute(line["attribute"], line["target"], rows, *labels))
+
+    # Nothing may be left.
     if at != len(content):
         raise RuntimeError(f"{file.name}: {len(content)} bytes of values, and lines for {at}")
     return document

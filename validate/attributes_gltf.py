@@ -239,6 +239,7 @@ def compare_scene(name: str, ours: Document, scene: Scene, tally: Tally) -> None
     first_with: dict[tuple[object, ...], Primitive] = {}
     left = 0
     for primitive in primitives(scene):
+        # What stays as it is, is not listed.
         where = f"{name}, mesh {primitive.mesh}, primitive {primitive.number}"
         if why := primitive.left_because():
             tally.left_out[f"primitives {why}"] += 1
@@ -252,12 +253,15 @@ def compare_scene(name: str, ours: Document, scene: Scene, tally: Tally) -> None
             tally.left_out["primitives that share the faces of an earlier one"] += 1
             tally.left_out["attributes that only these name"] += same.count(False)
             continue
+
+        # Any other is the next mesh.
         mesh = next(rest, None)
         if mesh is None:
             tally.problems.append(f"{where}: it is not listed")
             continue
         compare_mesh(where, mesh, primitive, tally)
 
+    # Nothing else may be listed, and notes must tell of what is not.
     for mesh in rest:
         tally.problems.append(f"{name}: the other reader has no {mesh.name}")
     noted = sum(count for text, count in ours.notes if text.startswith("left as it is"))

@@ -133,6 +133,7 @@ pub(super) fn ply() -> Vec<Made> {
 }
 
 fn ply_file(format: &str, encoding: Encoding) -> Vec<u8> {
+    // The header.
     let polygons: [&[i32]; 4] = [&[0, 1, 2], &[3, 4, 5, 6], &[7, 8, 9, 10, 11], &[2, 1, 11]];
     let of_every_type: String = TYPES
         .iter()
@@ -150,6 +151,7 @@ fn ply_file(format: &str, encoding: Encoding) -> Vec<u8> {
         polygons.len()
     );
 
+    // The vertices.
     let mut body = Body {
         encoding,
         bytes: header.into_bytes(),
@@ -163,6 +165,7 @@ fn ply_file(format: &str, encoding: Encoding) -> Vec<u8> {
         body.end_row();
     }
 
+    // The faces, with other numbers before and behind their corners.
     for polygon in polygons {
         let count = u8::try_from(polygon.len()).expect("few corners");
         body.add("uint");

@@ -107,6 +107,7 @@ fn compare(file: &Opened, tally: &mut Tally) -> Result<(), String> {
         tally.leave_out(1, &format!("{semantic} that only some corners have"));
     }
 
+    // Vertices are compared as corners, so those that are no corner are not.
     let mesh = &file.document.meshes()[0].mesh;
     let mut is_named = vec![false; mesh.vertex_count()];
     for &vertex in mesh.faces().as_flattened() {
@@ -119,6 +120,8 @@ fn compare(file: &Opened, tally: &mut Tally) -> Result<(), String> {
 
 fn compare_attribute(file: &Opened, info: &AttributeInfo, models: &[Model], tally: &mut Tally) {
     let layer = Layer::of(&info.semantic);
+
+    // Ours by corner, without what tobj drops.
     let mut ours = bits(&file.read(info).values);
     let components = info.components;
     if info.domain == Domain::Vertex {
@@ -133,6 +136,8 @@ fn compare_attribute(file: &Opened, info: &AttributeInfo, models: &[Model], tall
         );
         tally.leave_out(1, &what);
     }
+
+    // Every corner must have one.
     assert!(
         layer.is_everywhere(models),
         "{}: tobj has not {} for every corner",

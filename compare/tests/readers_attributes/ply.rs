@@ -120,6 +120,7 @@ fn compare(file: &Opened, tally: &mut Tally) -> Result<(), String> {
     let read = read.map_err(|error| error.to_string())?;
     let mut listed = BTreeSet::new();
     for info in file.attributes() {
+        // The properties that it is made of.
         let element = match info.domain {
             Domain::Vertex => "vertex",
             _ => "face",
@@ -130,6 +131,7 @@ fn compare(file: &Opened, tally: &mut Tally) -> Result<(), String> {
             _ => properties(&info, header),
         };
 
+        // Its type is theirs.
         let types = names
             .iter()
             .map(|name| component_type(&header.properties[name].data_type));
@@ -141,10 +143,11 @@ fn compare(file: &Opened, tally: &mut Tally) -> Result<(), String> {
             info.semantic,
             info.component_type
         );
+
+        // Its values are theirs, and no property is in two.
         let ours = bits(&file.read(&info).values);
         let theirs = values(&names, info.domain, &read.payload[element]);
         tally.compare((file, &info), info.components, &ours, &theirs);
-
         for name in names {
             let is_new = listed.insert((element, name));
             assert!(is_new, "{}: a property of two attributes", file.name);

@@ -92,11 +92,14 @@ impl Tally {
                 .unwrap_or_else(|e| panic!("{name}: {e}"));
             tally.files += 1;
         }
+
+        // The test data, if it is there.
         match compare::data_folder() {
             Some(data) => tally.add_data(&data, ending, compare),
             None => tally.leave_out(1, "folder of test data, which is not there: SKIPPED"),
         }
 
+        // What came of it.
         let what = format!("files refused by the other reader {:?}", tally.refused);
         tally.leave_out(tally.refused.len(), &what);
         compare::say(&tally.summary());
