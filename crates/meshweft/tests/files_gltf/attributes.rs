@@ -320,18 +320,17 @@ fn sparse_matrices_have_room_between_them() {
     let narrow = of_each(builder, U8, "MAT3", |_| [0; 12]);
     // The room at the end of the last one may be left out.
     let matrix = |i: u8| [i, 1, 2, 0xEE, 3, 4, 5, 0xEE, 6, 7, i, 0xEE];
-    let values = [matrix(5), matrix(20)].concat();
-    builder.accessors[narrow]["sparse"] = sparse(builder, &[5, 20], &values[..23]);
-    let indices = builder.indices(U16, &faces(60, COUNT));
-    let attributes = json!({"POSITION": position, "_NARROW": narrow});
-    let primitives = json!([{"attributes": attributes, "indices": indices}]);
-    let mut document = open(&builder.glb(&json!([{"primitives": primitives}]), &json!({})));
+    let matrices = &[matrix(5), matrix(20)].concat()[..23];
+    builder.accessors[narrow]["sparse"] = sparse(builder, &[5, 20], matrices);
+    let meshes = json!([{"primitives": [{"indices": builder.indices(U16, &faces(60, COUNT)),
+        "attributes": {"POSITION": position, "_NARROW": narrow}}]}]);
+    let mut document = open(&builder.glb(&meshes, &json!({})));
     for seed in 0..5 {
-        let ids = bits(&named(&document, 0, "POSITION"));
-        for (id, matrix) in ids.iter().zip(bits(&named(&document, 0, "_NARROW"))) {
-            let is_replaced = [5, 20].contains(&id[0]);
+        let [ids, matrices] = ["POSITION", "_NARROW"].map(|name| bits(&named(&document, 0, name)));
+        for (id, matrix) in ids.iter().zip(matrices) {
+            let scale = u64::from([5, 20].contains(&id[0]));
             let replaced = [id[0], 1, 2, 3, 4, 5, 6, 7, id[0]];
-            assert_eq!(matrix, if is_replaced { replaced } else { [0; 9] });
+            assert_eq!(matrix, replaced.map(|n| n * scale));
         }
         random_orders(&mut document, seed);
     }
