@@ -12,6 +12,8 @@ mod errors;
 mod follow;
 #[path = "files_vrml/plain.rs"]
 mod plain;
+#[path = "files_random/mod.rs"]
+mod random;
 #[path = "../../../fuzz/fuzz_targets/round_trip/mod.rs"]
 mod round_trip;
 #[path = "files_vrml/values.rs"]
@@ -22,6 +24,7 @@ use std::path::Path;
 use meshweft::files::{Document, Format, Place};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 use plain::FaceSet;
+use random::Random;
 
 const NAME: &str = "mesh.wrl";
 const BINDINGS: &str = include_str!("../../../fuzz/corpus/vrml/bindings.wrl");
@@ -44,26 +47,6 @@ fn notes(text: &str) -> Vec<String> {
         _ => note.text.clone(),
     });
     notes.collect()
-}
-
-/// Numbers that look random (xorshift), the same in each run.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % bound.max(1) as u64) as usize
-    }
-
-    fn shuffled(&mut self, from: usize, to: usize) -> Vec<u32> {
-        let mut numbers: Vec<u32> = (from as u32..to as u32).collect();
-        for last in (1..numbers.len()).rev() {
-            numbers.swap(last, self.below(last + 1));
-        }
-        numbers
-    }
 }
 
 /// The faces of `sets` in the order that was applied, resolved as a player resolves them.
@@ -98,7 +81,7 @@ fn check(text: &str, seed: u64) {
         let mut wanted = before.clone();
         for mesh in 0..count {
             let entry = document.meshes()[mesh].clone();
-            let (order, vertices) = values::orders(&mut random, &entry);
+            let (order, vertices) = random.orders(&entry);
             document.apply(mesh, &order, vertices.as_ref()).unwrap();
             // Entries come in the order of the file; those that stay have no entry.
             let place = before.entries[mesh];

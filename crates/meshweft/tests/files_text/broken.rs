@@ -5,7 +5,8 @@ use meshweft::files::Format;
 
 use super::errors::error_of;
 use super::stl::{ASCII, binary};
-use super::{OBJ, PLY, PLY_HEAD, PLY_ROWS, Random, binary_ply, error, name_of, round_trip};
+use super::{OBJ, PLY, PLY_HEAD, PLY_ROWS, binary_ply, error, name_of, round_trip};
+use crate::random::Random;
 
 #[test]
 fn limits_are_kept() {
@@ -153,13 +154,7 @@ fn spoilt_files_are_refused_or_survive() {
         let name = name_of(format).to_str().unwrap();
         round_trip::check(&bytes, format, name);
         for _ in 0..10_000 {
-            let mut spoilt = bytes.clone();
-            for _ in 0..=random.below(3) {
-                let at = random.below(spoilt.len());
-                let end = spoilt.len().min(at + random.below(4));
-                let piece = pieces[random.below(pieces.len())];
-                spoilt.splice(at..end, piece.iter().copied());
-            }
+            let spoilt = random.spoilt(&bytes, &pieces, 4);
             round_trip::check(&spoilt, format, name);
         }
     }
