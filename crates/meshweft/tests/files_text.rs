@@ -207,7 +207,7 @@ fn obj_vertices_stay_where_something_may_name_them() {
             "v 0 0 0\nvn 0 0 1\nf 1 1 1\n",
             "",
             2,
-            "as many vn lines, named by no face, may belong to them",
+            "the vn lines, one for each and not used by any face, may belong to them",
         ),
     ];
     for (text, _, line, reason) in reasons {

@@ -171,11 +171,11 @@ fn every_reason_to_stay_is_said() {
         ),
         (
             "colorPerVertex FALSE color Color { color 1 0 0 }",
-            "its color goes by face and has less than faces",
+            "its color goes by face and has fewer entries than there are faces",
         ),
         (
             "colorPerVertex FALSE colorIndex 0",
-            "its colorIndex goes by face and has less than faces",
+            "its colorIndex goes by face and has fewer entries than there are faces",
         ),
         (
             "colorPerVertex FALSE colorIndex [ 0 -1 ]",
@@ -198,11 +198,11 @@ fn every_reason_to_stay_is_said() {
         ),
         (
             "normal Normals { vector [] }",
-            "a node of type \"Normals\" stands in it",
+            "it contains a node of type \"Normals\"",
         ),
         ("skin [ 1 2 ]", "its field \"skin\" may go by numbers"),
         ("colorPerVertex IS x", "a field IS one of a PROTO"),
-        ("ccw IS x", "IS stands in it"),
+        ("ccw IS x", "it contains IS"),
         (
             "} Script { field SFNode n NULL",
             "a Script that is handed nodes may read it by number",

@@ -26,7 +26,7 @@ pub(super) fn glb(mesh: &Mesh, name: &str) -> Vec<u8> {
         binary.extend(index.to_le_bytes());
     }
 
-    // What says where they are.
+    // The JSON that describes it.
     let (vertices, indices) = (positions.len(), mesh.face_count() * 3);
     let view = |start: usize, length: usize, target: u32| json!({"buffer": 0, "byteOffset": start, "byteLength": length, "target": target});
     let json = json!({

@@ -86,11 +86,11 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ),
         (
             set("0 zero 0", "0"),
-            "line 3: \"zero\" where a number of \"point\" should stand".into(),
+            "line 3: \"zero\" where a number of \"point\" is expected".into(),
         ),
         (
             "IndexedFaceSet { coordIndex }".into(),
-            "line 2: \"}\" where a number of \"coordIndex\" should stand".into(),
+            "line 2: \"}\" where a number of \"coordIndex\" is expected".into(),
         ),
         (
             "IndexedFaceSet { coordIndex [ 0".into(),
@@ -98,7 +98,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ),
         (
             "IndexedFaceSet { colorPerVertex 1 }".into(),
-            "line 2: \"1\" where TRUE or FALSE should stand".into(),
+            "line 2: \"1\" where TRUE or FALSE is expected".into(),
         ),
         (
             "Group { children [ \"a\\\"".into(),

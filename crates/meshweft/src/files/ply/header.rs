@@ -119,7 +119,7 @@ impl Element {
     }
 }
 
-/// All that stands before the rows.
+/// Everything before the rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PlyHeader {
     pub(super) encoding: Encoding,

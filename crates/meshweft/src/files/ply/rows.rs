@@ -78,7 +78,7 @@ pub(super) trait PlyRows {
     }
 }
 
-/// PlyRows with numbers around one list of corners, of four bytes each, its length in one byte.
+/// Rows with numbers around one list of corners, of four bytes each, its length in one byte.
 pub(super) struct TriangleLayout {
     /// Bytes before the list.
     before: usize,
