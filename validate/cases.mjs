@@ -54,7 +54,7 @@ function torus(name, rings, sides) {
     return shuffledMesh(name, rings * sides, faces, random);
 }
 
-/** Faces of any vertices; some name a vertex twice or are there twice, some vertices have no face. */
+/** Faces of any vertices; some name a vertex twice, some occur twice, some vertices have no face. */
 function soup(name, faceCount, vertexCount) {
     const random = seeded(faceCount);
     const any = () => Math.floor(vertexCount * random());
@@ -77,7 +77,7 @@ async function off(name, file) {
     const numbers = words.slice(4 + 3 * vertexCount).map(Number);
     const faces = Array.from({ length: faceCount }, (_, i) => numbers.slice(4 * i, 4 * i + 4));
     if (words[0] !== "OFF" || numbers.length !== 4 * faceCount || faces.some(([corners]) => corners !== 3)) {
-        throw new Error(`${file}: not the triangles that were expected`);
+        throw new Error(`${file}: the triangles are not as expected`);
     }
     return { name, vertexCount, indices: faces.flatMap(([, ...face]) => face) };
 }

@@ -64,7 +64,7 @@ class Library {
             if (!(error instanceof WebAssembly.RuntimeError)) throw error;
             const { panic_text, panic_text_bytes } = this.exports;
             const text = this.#bytes(panic_text(), panic_text_bytes()).toString();
-            // What trapped is not whole.
+            // After a trap the instance cannot be used.
             this.start();
             return new Error(`trap: ${error.message}; ${text || "no panic"}`);
         }
@@ -90,11 +90,11 @@ class Library {
         return Buffer.concat([head, bytesOf(ordered)]);
     }
 
-    /** Calls with the array's place in the memory of the module, and copies back what is there then. */
+    /** Copies the array into the module's memory, calls with its address, and copies it back. */
     #with(array, call) {
         const bytes = bytesOf(array);
         const at = this.exports.allocate(bytes.length);
-        // The memory may grow, and its old view is empty then: each time a new one.
+        // Memory that grows leaves old views empty: a new one each time.
         this.#bytes(at, bytes.length).set(bytes);
         const result = call(at, bytes.length);
         bytes.set(this.#bytes(at, bytes.length));
