@@ -31,7 +31,7 @@ async function findings(file, uri) {
         maxIssues: 0,
         externalResourceFunction: async (name) => {
             const bytes = await readFile(join(dirname(file), name)).catch(() => {
-                // The system's own words name the folder.
+                // The system's error text names the folder.
                 throw new Error("not there");
             });
             return new Uint8Array(bytes);
@@ -39,7 +39,7 @@ async function findings(file, uri) {
     });
     return validated.then(
         (report) => ({ messages: report.issues.messages, counts: JSON.stringify(report.info) }),
-        // What is no glTF at all makes no report.
+        // For what is not a glTF at all there is no report.
         (error) => ({ messages: [{ severity: 0, code: "NOT_READ", message: String(error) }], counts: "" }),
     );
 }
@@ -148,7 +148,7 @@ async function check(source, name, scratch, tally) {
     const folder = join(scratch, "out");
     await rm(folder, { recursive: true, force: true });
     await mkdir(folder);
-    // Textures are not written by the program, so all that stands beside the source comes along.
+    // The program does not write textures: everything beside the source is copied as well.
     if (!isGlb(source)) await copyBelow(dirname(source), folder);
     const result = join(folder, basename(source));
     await rm(result, { force: true });

@@ -112,7 +112,7 @@ function cornerNumbers(geometry, records, known) {
     return Array.from(index, (vertex) => ofVertex[vertex] ?? -1);
 }
 
-/** How often each triangle is there: with its orientation, whichever corner it starts with. */
+/** How often each triangle occurs: with its orientation, whichever corner it starts with. */
 function triangles(corners) {
     const counts = new Map();
     for (let at = 0; at + 2 < corners.length; at += 3) {
@@ -150,7 +150,7 @@ export function differences(before, after) {
         const oldCorners = cornerNumbers(old.geometry, oldVertices.records, known);
         const madeCorners = cornerNumbers(made.geometry, madeVertices.records, known);
         if (oldCorners.length !== madeCorners.length) differ(`primitive ${number}: the number of corners`);
-        // Points and lines are none of the program's business and stay as they are.
+        // The program leaves points and lines as they are.
         if (!old.kind.endsWith("Mesh")) {
             if (oldCorners.join() !== madeCorners.join()) differ(`primitive ${number}: ${old.kind}`);
             return;

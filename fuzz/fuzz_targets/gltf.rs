@@ -45,7 +45,7 @@ fn check(data: &[u8], format: Format, path: &Path) {
     let again = read(bytes).expect("what was written can be read");
     assert_eq!(document.meshes().len(), again.meshes().len());
     for (mesh, (written, read)) in document.meshes().iter().zip(again.meshes()).enumerate() {
-        // Positions may be no numbers, which differ from themselves.
+        // Positions may be NaN, which differs from itself.
         assert_eq!(written.mesh.faces(), read.mesh.faces());
         assert_eq!(triangles(&document, mesh), triangles(&again, mesh));
     }
