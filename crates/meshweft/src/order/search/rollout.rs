@@ -253,7 +253,7 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
     /// The next focus when no candidate is left: the last vertex that left unfinished, else the
     /// first in file order that has faces left; `None` if all faces are drawn.
     fn after_dead_end(&mut self) -> Option<u32> {
-        while let Some(vertex) = self.state.left.pop() {
+        while let Some(vertex) = self.state.dead_ends.pop() {
             if self.state.live(vertex) != 0 {
                 return Some(vertex);
             }
