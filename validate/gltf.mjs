@@ -4,45 +4,18 @@
 // Usage: node gltf.mjs MESHWEFT DATA_FOLDER
 
 import { execFile } from "node:child_process";
-import { copyFile, mkdir, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
+import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { basename, dirname, join, relative } from "node:path";
 import { isDeepStrictEqual, promisify } from "node:util";
 
-import validator from "gltf-validator";
-
 import { Glb } from "./glb.mjs";
 import { make } from "./made.mjs";
+import { copyBelow, filesBelow, findings, isError, isGlb, jsonOf, names } from "./reading.mjs";
 import { differences, load } from "./three.mjs";
 
 const [program, data] = process.argv.slice(2);
 const run = promisify(execFile);
-
-async function filesBelow(folder) {
-    const entries = await readdir(folder, { recursive: true, withFileTypes: true });
-    const files = entries.filter((entry) => entry.isFile()).map((entry) => join(entry.parentPath, entry.name));
-    return files.filter((file) => /\.(glb|gltf)$/.test(file)).sort();
-}
-
-/** What the Khronos validator finds, and what it counts. */
-async function findings(file, uri) {
-    const validated = validator.validateBytes(new Uint8Array(await readFile(file)), {
-        uri,
-        maxIssues: 0,
-        externalResourceFunction: async (name) => {
-            const bytes = await readFile(join(dirname(file), name)).catch(() => {
-                // The system's own words name the folder.
-                throw new Error("not there");
-            });
-            return new Uint8Array(bytes);
-        },
-    });
-    return validated.then(
-        (report) => ({ messages: report.issues.messages, counts: JSON.stringify(report.info) }),
-        // What is no glTF at all makes no report.
-        (error) => ({ messages: [{ severity: 0, code: "NOT_READ", message: String(error) }], counts: "" }),
-    );
-}
 
 /** Findings as sorted lines, each message as `worded`. */
 function lines(messages, worded) {
@@ -61,11 +34,6 @@ function orderFree(finding, indexAccessors) {
     const [, list, number] = (finding.pointer ?? "").split("/");
     const isIndices = list === "accessors" && indexAccessors.has(Number(number));
     return isWrongBound && isIndices ? message.replace(/contains \d+/, "contains …") : message;
-}
-
-async function jsonOf(file) {
-    const bytes = await readFile(file);
-    return isGlb(file) ? new Glb(bytes).json : JSON.parse(bytes.toString());
 }
 
 /** The numbers of the accessors that hold vertex numbers. */
@@ -132,23 +100,11 @@ class Tally {
     }
 }
 
-const isGlb = (file) => file.endsWith(".glb");
-const names = (list) => (list.length ? ` (${list.join(", ")})` : "");
-
-/** Copies all files; the folders may be written, whatever those of the source may. */
-async function copyBelow(from, to) {
-    for (const entry of await readdir(from, { recursive: true, withFileTypes: true })) {
-        const target = join(to, relative(from, entry.parentPath));
-        await mkdir(target, { recursive: true });
-        if (entry.isFile()) await copyFile(join(entry.parentPath, entry.name), join(target, entry.name));
-    }
-}
-
 async function check(source, name, scratch, tally) {
     const folder = join(scratch, "out");
     await rm(folder, { recursive: true, force: true });
     await mkdir(folder);
-    // Textures are not written by the program, so all that stands beside the source comes along.
+    // The program does not write textures: everything beside the source is copied as well.
     if (!isGlb(source)) await copyBelow(dirname(source), folder);
     const result = join(folder, basename(source));
     await rm(result, { force: true });
@@ -198,8 +154,6 @@ async function notMoved(before, after) {
         return wrong;
     });
 }
-
-const isError = ({ severity }) => severity === 0;
 
 const scratch = await mkdtemp(join(tmpdir(), "meshweft-gltf-"));
 try {

@@ -1,6 +1,6 @@
 // The objects of a glTF file, kind by kind.
 
-/** An extension that nobody knows. */
+/** An extension that no tool knows. */
 export const PRIVATE = "ACME_private";
 
 /** Every object of a glTF that may carry extras and extensions, and its kind. */

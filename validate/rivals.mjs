@@ -126,7 +126,7 @@ function state(is, has) {
     return has.length > 0 ? "changed" : "lost";
 }
 
-/** Whether a value is all in another, which may have more fields. */
+/** Whether a value is contained in another, which may have more fields. */
 function isWithin(value, other) {
     if (value === null || typeof value !== "object") return value === other;
     if (other === null || typeof other !== "object" || Array.isArray(value) !== Array.isArray(other)) return false;

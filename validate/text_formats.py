@@ -56,7 +56,7 @@ def ending_of(file: Path) -> str:
 
 
 def geometries(file: Path) -> Iterator[tuple[str, trimesh.Trimesh]]:
-    """The meshes of a file by name, each vertex as it stands there."""
+    """The meshes of a file by name, each vertex as the file has it."""
     opened = gzip.open(file) if file.suffix == ".gz" else file.open("rb")
     options: dict[str, object] = {"process": False}
     if ending_of(file) == "obj":

@@ -10,13 +10,16 @@ const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
 const { MeshoptDecoder } = await import("three/addons/libs/meshopt_decoder.module.js");
 await MeshoptDecoder.ready;
 
+/** A texture that is known by its number in the file. */
+const named = (number) => Promise.resolve(Object.assign(new Texture(), { name: `texture ${number}` }));
+
 /** Buffers from files, and no pictures: there is nothing to decode them here. */
 function withoutBrowser(folder) {
     return (parser) => {
         parser.fileLoader = {
             load: (uri, done, _, failed) => bytesOf(folder, uri).then(done, failed),
         };
-        return { name: "without_browser", loadTexture: () => Promise.resolve(new Texture()) };
+        return { name: "without_browser", loadTexture: named };
     };
 }
 
@@ -37,8 +40,8 @@ const undecoded = {
     },
 };
 
-/** The geometries of all primitives in the file's order and what else was loaded, or the error. */
-export async function load(file) {
+/** What three.js makes of a file, or fails with. */
+export async function loadScene(file) {
     const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(undecoded);
     // Before the loader's own plug-ins, some of which refuse textures that they cannot decode.
     loader.pluginCallbacks.unshift(withoutBrowser(dirname(file)));
@@ -47,12 +50,27 @@ export async function load(file) {
     try {
         const bytes = await readFile(file);
         const gltf = await loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), "");
-        const primitives = [];
-        for (const mesh of await gltf.parser.getDependencies("mesh")) {
-            mesh.traverse((part) => {
-                if (part.geometry) primitives.push({ kind: part.type, geometry: part.geometry });
-            });
-        }
+        return { gltf, primitives: await primitivesOf(gltf) };
+    } finally {
+        Object.assign(console, { warn, error: complain });
+    }
+}
+
+/** All primitives in the file's order. */
+async function primitivesOf({ parser }) {
+    const meshes = await parser.getDependencies("mesh");
+    return meshes.flatMap((mesh, number) => {
+        // A group holds the primitives, then whatever is below the node that draws it.
+        const count = parser.json.meshes[number].primitives.length;
+        const parts = count > 1 ? mesh.children.slice(0, count) : [mesh];
+        return parts.map(({ type, geometry, material }) => ({ kind: type, geometry, material }));
+    });
+}
+
+/** The geometries of all primitives in the file's order and what else was loaded, or the error. */
+export async function load(file) {
+    try {
+        const { gltf, primitives } = await loadScene(file);
         const skins = await gltf.parser.getDependencies("skin");
         const rest = JSON.stringify({
             animations: gltf.animations.map((clip) => clip.toJSON()),
@@ -61,9 +79,12 @@ export async function load(file) {
         return { primitives, rest: withoutChance(rest) };
     } catch (error) {
         return { error: String(error.message ?? error), primitives: [], rest: "" };
-    } finally {
-        Object.assign(console, { warn, error: complain });
     }
+}
+
+/** A material's parameters and the numbers of its textures. */
+export function parameters(material) {
+    return withoutChance(JSON.stringify(material.toJSON()));
 }
 
 /** Every new name that three.js gives to an unnamed node, in the order in which they come. */
@@ -76,7 +97,7 @@ function withoutChance(text) {
 }
 
 /** The bytes of each vertex: all attributes and morph targets, one after the other. */
-function vertexRecords(geometry) {
+export function vertexRecords(geometry) {
     const morphs = Object.entries(geometry.morphAttributes);
     const sets = [
         ...Object.entries(geometry.attributes),
@@ -112,7 +133,7 @@ function cornerNumbers(geometry, records, known) {
     return Array.from(index, (vertex) => ofVertex[vertex] ?? -1);
 }
 
-/** How often each triangle is there: with its orientation, whichever corner it starts with. */
+/** How often each triangle occurs: with its orientation, whichever corner it starts with. */
 function triangles(corners) {
     const counts = new Map();
     for (let at = 0; at + 2 < corners.length; at += 3) {
@@ -150,7 +171,7 @@ export function differences(before, after) {
         const oldCorners = cornerNumbers(old.geometry, oldVertices.records, known);
         const madeCorners = cornerNumbers(made.geometry, madeVertices.records, known);
         if (oldCorners.length !== madeCorners.length) differ(`primitive ${number}: the number of corners`);
-        // Points and lines are none of the program's business and stay as they are.
+        // The program leaves points and lines as they are.
         if (!old.kind.endsWith("Mesh")) {
             if (oldCorners.join() !== madeCorners.join()) differ(`primitive ${number}: ${old.kind}`);
             return;

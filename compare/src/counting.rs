@@ -3,7 +3,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The system's allocator, counting; to be made the global one.
+/// The system's allocator with counters, to be used as the global one.
 pub struct Counting;
 
 static IN_USE: AtomicUsize = AtomicUsize::new(0);

@@ -50,7 +50,7 @@ pub fn mesh_files(data: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The five meshes that tables are made of where no files are named.
+/// The five meshes of the tables where no files are named.
 #[must_use]
 pub fn default_mesh_files(data: &Path) -> Vec<PathBuf> {
     let names = [
@@ -70,8 +70,8 @@ pub fn is_vrml(file: &Path) -> bool {
     file.to_string_lossy().contains(".wrl")
 }
 
-/// Runs `check` on the name and the mesh of every file in the folder of real meshes, and says past
-/// the test harness on how many, and which were skipped.
+/// Runs `check` on the name and the mesh of every file in the folder of real meshes, and reports past
+/// the test harness how many there were, and which were skipped.
 ///
 /// # Panics
 /// As [`data_folder`], and if a mesh cannot be read.
@@ -98,9 +98,9 @@ pub fn for_each_mesh(what: &str, mut check: impl FnMut(&str, &Mesh)) {
     });
 }
 
-/// Writes a line that the test harness does not hold back.
+/// Writes a line that the test harness does not capture.
 pub fn say(line: &str) {
-    // Nobody is there to be told if stderr is closed.
+    // If stderr is closed there is nowhere to report it.
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
@@ -111,7 +111,7 @@ pub fn mesh_name(file: &Path) -> String {
     name.split('.').next().unwrap_or_default().to_owned()
 }
 
-/// The folder of real meshes, or what to do where there is none.
+/// The folder of real meshes, or advice where there is none.
 ///
 /// # Errors
 /// If there is no such folder.
@@ -132,7 +132,7 @@ pub fn figure(faces: &[[u32; 3]], model: CacheModel) -> f64 {
     }
 }
 
-/// Says what went wrong, if anything did.
+/// Prints what went wrong, if anything did.
 #[must_use]
 pub fn exit_code(result: Result<(), String>) -> ExitCode {
     match result {

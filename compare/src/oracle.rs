@@ -47,7 +47,8 @@ fn fan(polygon: &[u32], faces: &mut Vec<[u32; 3]>) {
 
 fn number<T: std::str::FromStr>(word: Option<&str>) -> Result<T, String> {
     let word = word.ok_or("a number is missing")?;
-    word.parse().map_err(|_| format!("{word:?} is no number"))
+    word.parse()
+        .map_err(|_| format!("{word:?} is not a number"))
 }
 
 fn obj(bytes: &[u8]) -> Result<Connectivity, String> {
@@ -164,7 +165,9 @@ fn ply(bytes: &[u8]) -> Result<Connectivity, String> {
                 elements.push((name, number(words.next())?, Vec::new()));
             }
             Some("property") => {
-                let (.., properties) = elements.last_mut().ok_or("a property of nothing")?;
+                let (.., properties) = elements
+                    .last_mut()
+                    .ok_or("a property before the first element")?;
                 properties.push(words.collect());
             }
             _ => {}

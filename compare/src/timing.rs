@@ -5,7 +5,7 @@ use std::time::Instant;
 
 /// The median time of each job in seconds, from `repetitions` rounds that run every job once.
 ///
-/// Rounds are interleaved so that whatever else the machine does meets all jobs alike.
+/// Rounds are interleaved so that whatever else the machine does affects all jobs alike.
 pub fn medians<const N: usize, T>(
     repetitions: usize,
     mut jobs: [&mut dyn FnMut() -> T; N],

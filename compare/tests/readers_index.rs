@@ -2,7 +2,7 @@
 
 use meshweft::{CacheModel, cache};
 
-/// `value` in as many places as the index prints, which is four less trailing zeros.
+/// `value` as the index prints it: four decimal places, without trailing zeros.
 fn as_printed(value: f64) -> String {
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

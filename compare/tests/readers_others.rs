@@ -113,7 +113,7 @@ impl PropertyAccess for Row {
     }
 }
 
-/// The whole numbers of a property that is no fraction.
+/// The values of a property of whole numbers.
 fn whole_numbers(property: &Property) -> impl Iterator<Item = i64> {
     fn all<T: Copy + Into<i64>>(values: &[T]) -> Vec<i64> {
         values.iter().map(|&value| value.into()).collect()

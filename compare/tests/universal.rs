@@ -17,7 +17,7 @@ fn no_cache_or_gpu_loses_to_meshoptimizer() {
         let theirs = Meshopt::VertexCache.ordered(&mesh);
         for effort in [Effort::Fast, Effort::Best, Effort::Max] {
             if effort == Effort::Max && mesh.face_count() > 200_000 {
-                // Half a minute, for what the smaller ones tell as well.
+                // It would take half a minute, and the smaller ones show the same.
                 continue;
             }
             let optimizer = Optimizer {

@@ -1,12 +1,16 @@
 //! Any bytes as a GLB and as the JSON of a glTF: an error, or a scene whose faces and vertices can
-//! be reversed without losing a triangle.
+//! be reversed without losing a triangle, and to which meshes can be added or nothing changes.
 #![no_main]
 
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::files::{Document, Edit, Format};
+use meshweft::attribute::{Attribute, Semantic};
+use meshweft::files::{Document, Edit, Format, NewMesh, NewVertices};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
+
+/// A new mesh of one face.
+const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 fuzz_target!(|data: &[u8]| {
     check(data, Format::Glb, Path::new("no such folder/scene.glb"));
@@ -14,17 +18,32 @@ fuzz_target!(|data: &[u8]| {
 });
 
 fn check(data: &[u8], format: Format, path: &Path) {
-    let read = |bytes| Document::from_bytes(bytes, format, path, Limits::default());
-    let Ok(mut document) = read(data.to_vec()) else {
+    let read = Document::from_bytes(data.to_vec(), format, path, Limits::default());
+    let Ok(mut document) = read else {
         return;
     };
-    let unchanged = document
-        .to_main_bytes()
-        .expect("what was read can be written");
-    assert_eq!(unchanged, data);
+    assert_eq!(main_bytes(&document), data);
+    reverse(&mut document);
+    assert_same(&document, &written(&document));
+    if append(&mut document) {
+        assert_same(&document, &written(&document));
+        reverse(&mut document);
+        assert_same(&document, &written(&document));
+    }
+}
+
+/// What a reader sees of the document when it is written.
+fn written(document: &Document) -> Document {
+    let bytes = main_bytes(document);
+    let read = Document::from_bytes(bytes, document.format(), document.path(), Limits::default());
+    read.expect("what was written can be read")
+}
+
+/// Reverses the faces and vertices of all meshes.
+fn reverse(document: &mut Document) {
     for mesh in 0..document.meshes().len() {
-        let before = triangles(&document, mesh);
-        check_attributes(&document, mesh);
+        let before = triangles(document, mesh);
+        check_attributes(document, mesh);
         let entry = &document.meshes()[mesh];
         let faces = FaceOrder::from(reversed(entry.record_count()));
         let vertices = entry
@@ -37,17 +56,50 @@ fn check(data: &[u8], format: Format, path: &Path) {
                 vertices: vertices.as_ref(),
             })
             .expect("the orders have the right lengths");
-        assert_eq!(before, triangles(&document, mesh));
+        assert_eq!(before, triangles(document, mesh));
     }
-    let bytes = document
-        .to_main_bytes()
-        .expect("what was read can be written");
-    let again = read(bytes).expect("what was written can be read");
+}
+
+/// Adds the faces of the first mesh once more, and a triangle; whether that was possible.
+fn append(document: &mut Document) -> bool {
+    let Some(first) = document.meshes().first() else {
+        return false;
+    };
+    let faces = first.mesh.faces().to_vec();
+    let before = (triangles(document, 0), main_bytes(document));
+    let attributes = [Attribute::of_vertices(Semantic::Position, &CORNERS)];
+    let meshes = [
+        NewMesh::new("shared", NewVertices::Shared(0), &faces),
+        NewMesh::new("triangle", NewVertices::Stored(&attributes), &[[0, 1, 2]]),
+    ];
+    if document.edit(Edit::append(&meshes)).is_err() {
+        assert_eq!(main_bytes(document), before.1, "an error changes nothing");
+        return false;
+    }
+
+    let last = document.meshes().len().checked_sub(2);
+    match last.filter(|&last| document.meshes()[last].name == "shared") {
+        Some(shared) => {
+            assert_eq!(triangles(document, shared), before.0);
+            let corners = document.positions(shared + 1);
+            assert_eq!(corners.ok().flatten().as_deref(), Some(&CORNERS[..]));
+        }
+        None => assert!(!document.notes().is_empty(), "what stays is told"),
+    }
+    true
+}
+
+fn main_bytes(document: &Document) -> Vec<u8> {
+    let bytes = document.to_main_bytes();
+    bytes.expect("what was read can be written")
+}
+
+fn assert_same(document: &Document, again: &Document) {
     assert_eq!(document.meshes().len(), again.meshes().len());
     for (mesh, (written, read)) in document.meshes().iter().zip(again.meshes()).enumerate() {
-        // Positions may be no numbers, which differ from themselves.
+        // Positions may be NaN, which differs from itself.
         assert_eq!(written.mesh.faces(), read.mesh.faces());
-        assert_eq!(triangles(&document, mesh), triangles(&again, mesh));
+        assert_eq!(triangles(document, mesh), triangles(again, mesh));
     }
 }
 

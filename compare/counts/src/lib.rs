@@ -46,8 +46,8 @@ pub fn flatten(data: &Path, folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// One of the five meshes, from the folder that [`FOLDER`] names. It is never freed: that is no
-/// part of what is counted.
+/// One of the five meshes, from the folder that [`FOLDER`] names. It is never freed, so
+/// that freeing is not counted.
 ///
 /// # Panics
 /// If [`flatten`] was not run.

@@ -80,7 +80,7 @@ fn main() -> ExitCode {
         }
         options.files.sort();
     }
-    // What a panic says is printed with the file that it came from.
+    // The text of a panic is printed with the file that caused it.
     std::panic::set_hook(Box::new(|_| {}));
     let mut tally = Tally::default();
     let (index, count) = options.shard;

@@ -1,4 +1,4 @@
-//! Edge cuts beside METIS', both balanced to 3 %, as Markdown.
+//! Edge cuts compared with METIS', both balanced to 3 %, as Markdown.
 //!
 //! ```text
 //! cargo run --release --bin partition -- [mesh files]
@@ -62,7 +62,7 @@ fn run() -> Result<(), String> {
             let start = Instant::now();
             let theirs = metis_cut(&graph, parts).map_err(|error| error.to_string())?;
             metis_seconds += start.elapsed().as_secs_f64();
-            // Of few faces the mean is no whole number.
+            // With few faces the mean is not a whole number.
             let least = graph.vertex_count().div_ceil(parts as usize) * parts as usize;
             let most = IMBALANCE.max(least as f64 / graph.vertex_count() as f64);
             let weight = imbalance(&graph, &ours, parts);

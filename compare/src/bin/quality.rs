@@ -1,12 +1,12 @@
-//! Prints misses per face and per vertex of every order there is to compare, and what each took, as
-//! Markdown.
+//! Prints misses per face and per vertex of every order that can be compared, and the time each took,
+//! as Markdown.
 //!
 //! ```text
 //! cargo run --release --bin quality -- [--only TEXT]... [mesh files]
 //! ```
 //!
-//! `--only` leaves out the orders whose name has none of the texts. Without files five meshes of the
-//! test data.
+//! `--only` leaves out the orders whose name has none of the texts. Without files it takes five meshes
+//! of the test data.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -27,7 +27,7 @@ fn run() -> Result<(), String> {
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
-            "--only" => only.push(arguments.next().ok_or("--only asks for a text")?),
+            "--only" => only.push(arguments.next().ok_or("--only needs a text")?),
             _ => files.push(PathBuf::from(argument)),
         }
     }
@@ -71,7 +71,7 @@ fn run() -> Result<(), String> {
     println!();
     println!("K: misses per face (ACMR) of a FIFO cache. NVIDIA, AMD, Intel: misses per vertex");
     println!("(ATVR) of the batch models that meshoptimizer's analyzer is run with. Time on one");
-    println!("thread, in that of `meshopt_optimizeVertexCache` on the same mesh.");
+    println!("thread, as a multiple of `meshopt_optimizeVertexCache`'s on the same mesh.");
     Ok(())
 }
 

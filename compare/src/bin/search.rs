@@ -1,5 +1,5 @@
-//! What each effort gives for its time, beside meshoptimizer's main optimizer, one thread, all in
-//! one run, as Markdown.
+//! What each effort gives for its time, compared with meshoptimizer's main optimizer, one thread, all
+//! in one run, as Markdown.
 //!
 //! ```text
 //! cargo run --release --bin search -- [--target TARGET]... [--effort EFFORT]... [mesh files]
@@ -30,11 +30,7 @@ fn run() -> Result<(), String> {
     let (mut targets, mut efforts, mut files) = (Vec::new(), Vec::new(), Vec::new());
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
-        let mut value = || {
-            arguments
-                .next()
-                .ok_or(format!("{argument} asks for a value"))
-        };
+        let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
         match argument.as_str() {
             "--target" => {
                 let target: Target = value()?.parse().map_err(|e| format!("{e}"))?;
@@ -43,7 +39,7 @@ fn run() -> Result<(), String> {
             "--effort" => {
                 let name = value()?;
                 let known = EFFORTS.iter().find(|(effort, _)| *effort == name);
-                efforts.push(*known.ok_or(format!("{name} is no effort: fast, best or max"))?);
+                efforts.push(*known.ok_or(format!("{name} is not an effort: fast, best or max"))?);
             }
             _ => files.push(PathBuf::from(argument)),
         }
@@ -71,8 +67,8 @@ fn run() -> Result<(), String> {
     for target in targets {
         table(target, &efforts, &meshes);
     }
-    println!("ACMR of FIFO and controllable caches, ATVR of GPUs. Times in those of");
-    println!("`meshopt_optimizeVertexCache` on the same mesh in the same run.");
+    println!("ACMR of FIFO and controllable caches, ATVR of GPUs. Times as multiples of");
+    println!("`meshopt_optimizeVertexCache`'s on the same mesh in the same run.");
     Ok(())
 }
 

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Each job goes from faces to newly allocated faces in another order. Repetitions are interleaved
-//! and the median is taken. A small mesh that is ordered again and again flatters everybody: the
+//! and the median is taken. A small mesh that is ordered repeatedly flatters every program: the
 //! processor learns its branches.
 
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ fn main() -> ExitCode {
     let flags: Vec<&str> = flags.iter().map(String::as_str).collect();
     let known = ["--all", "--growth", "--memory"];
     if let Some(unknown) = flags.iter().find(|flag| !known.contains(flag)) {
-        eprintln!("{unknown} is none of {known:?}");
+        eprintln!("{unknown} is not one of {known:?}");
         return ExitCode::from(2);
     }
     if flags.contains(&"--growth") {
@@ -145,7 +145,7 @@ impl Row {
     fn print_title() {
         println!(
             "| mesh | faces | K | ACMR ours | meshopt | Tipsify | ns per face ours | \
-             of it the order | meshopt | Tipsify | meshopt / ours | Tipsify / ours |"
+             for the order alone | meshopt | Tipsify | meshopt / ours | Tipsify / ours |"
         );
         println!("|---|{}", "--:|".repeat(11));
     }

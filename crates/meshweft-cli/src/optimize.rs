@@ -44,7 +44,7 @@ pub(crate) struct Optimize {
 
 /// Optimises each file.
 pub(crate) fn run(arguments: &Optimize) -> Result<()> {
-    // What cannot be done is said before a file is touched.
+    // What cannot be done is reported before a file is touched.
     let options = arguments.ordering.options()?;
     let jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
     if arguments.write_permutation.is_some() && !jobs.is_one_file {
@@ -94,7 +94,7 @@ fn optimize(
     })
 }
 
-/// A line for the file, one for its caches, one for GPUs, one for what became of it.
+/// A line for the file, one for its caches, one for GPUs, one for whether and where it was written.
 fn text(report: &OptimizeReport) -> String {
     let (before, after) = (&report.total.before, &report.total.after);
     let mut text = format!(

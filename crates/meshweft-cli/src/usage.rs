@@ -1,4 +1,4 @@
-//! Errors as the program tells them.
+//! Errors as the program reports them.
 
 use std::fmt;
 

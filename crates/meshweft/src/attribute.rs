@@ -77,6 +77,7 @@ pub enum ComponentType {
 impl ComponentType {
     /// How many bytes one takes.
     #[must_use]
+    #[inline]
     pub fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,

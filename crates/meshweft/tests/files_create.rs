@@ -176,6 +176,8 @@ fn what_a_format_cannot_hold_is_said() {
     let far = by_vertex(Position, 3, F32);
     let mut infinite = far.clone();
     infinite.values = Values::F32(vec![f32::INFINITY; 12]);
+    let mut unknown = by_vertex(Normal, 3, F32);
+    unknown.values = Values::F32([&[0.5; 11][..], &[f32::NAN]].concat());
     let mut short = by_vertex(Normal, 3, F32);
     short.values = Values::F32(vec![0.0; 9]);
     for (format, attributes, expected) in [
@@ -213,7 +215,12 @@ fn what_a_format_cannot_hold_is_said() {
         (
             Format::Glb,
             vec![infinite],
-            "new: the position of vertex 0 is not finite, which glTF does not allow",
+            "new: POSITION of vertex 0 is not finite, which glTF does not allow",
+        ),
+        (
+            Format::Glb,
+            vec![positions(), unknown],
+            "new: NORMAL of vertex 3 is not finite, which glTF does not allow",
         ),
         (
             Format::Glb,

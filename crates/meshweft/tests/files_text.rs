@@ -16,6 +16,8 @@ mod obj_values;
 mod off_attributes;
 #[path = "files_text/ply_values.rs"]
 mod ply_values;
+#[path = "files_random/mod.rs"]
+mod random;
 #[path = "files_text/real.rs"]
 mod real;
 #[path = "../../../fuzz/fuzz_targets/round_trip/mod.rs"]
@@ -34,46 +36,8 @@ use std::path::Path;
 use errors::error_of;
 use meshweft::files::{Document, Edit, Format, MeshEntry};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
+use random::Random;
 use simple::Pieces;
-
-/// A stream of numbers that look random (xorshift), the same in each run.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % bound.max(1) as u64) as usize
-    }
-
-    fn shuffle(&mut self, entries: &mut [u32]) {
-        for last in (1..entries.len()).rev() {
-            entries.swap(last, self.below(last + 1));
-        }
-    }
-
-    fn face_order(&mut self, entry: &MeshEntry) -> FaceOrder {
-        let count = entry.record_count();
-        let mut new_to_old: Vec<u32> = (0..count as u32).collect();
-        let ends = entry.runs.iter().skip(1).map(|&end| end as usize);
-        for (&start, end) in entry.runs.iter().zip(ends.chain([count])) {
-            self.shuffle(&mut new_to_old[start as usize..end]);
-        }
-        let rotations = match entry.corners_turnable {
-            true => (0..count).map(|_| self.below(3) as u8).collect(),
-            false => Vec::new(),
-        };
-        FaceOrder::new(Permutation::new(new_to_old).unwrap(), rotations).unwrap()
-    }
-
-    fn vertex_order(&mut self, entry: &MeshEntry) -> Option<VertexOrder> {
-        let mut new_to_old: Vec<u32> = (0..entry.mesh.vertex_count() as u32).collect();
-        self.shuffle(&mut new_to_old);
-        let order = VertexOrder::from(Permutation::new(new_to_old).unwrap());
-        entry.vertices_movable.then_some(order)
-    }
-}
 
 fn name_of(format: Format) -> &'static Path {
     Path::new(match format {
@@ -174,8 +138,7 @@ fn check_times(bytes: &[u8], format: Format, seed: u64, times: usize) {
     );
     for _ in 0..times {
         let before = simple::read(&written(&document), format);
-        let faces = random.face_order(&document.meshes()[0]);
-        let vertices = random.vertex_order(&document.meshes()[0]);
+        let (faces, vertices) = random.orders(&document.meshes()[0]);
         document
             .edit(Edit::Order {
                 mesh: 0,
@@ -262,7 +225,7 @@ fn obj_vertices_stay_where_something_may_name_them() {
             "v 0 0 0\nvn 0 0 1\nf 1 1 1\n",
             "",
             2,
-            "as many vn lines, named by no face, may belong to them",
+            "the vn lines, one for each and not used by any face, may belong to them",
         ),
     ];
     for (text, _, line, reason) in reasons {

@@ -12,6 +12,8 @@ mod errors;
 mod follow;
 #[path = "files_vrml/plain.rs"]
 mod plain;
+#[path = "files_random/mod.rs"]
+mod random;
 #[path = "../../../fuzz/fuzz_targets/round_trip/mod.rs"]
 mod round_trip;
 #[path = "files_vrml/values.rs"]
@@ -22,6 +24,7 @@ use std::path::Path;
 use meshweft::files::{Document, Edit, Format, Place};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 use plain::FaceSet;
+use random::Random;
 
 const NAME: &str = "mesh.wrl";
 const BINDINGS: &str = include_str!("../../../fuzz/corpus/vrml/bindings.wrl");
@@ -44,26 +47,6 @@ fn notes(text: &str) -> Vec<String> {
         _ => note.text.clone(),
     });
     notes.collect()
-}
-
-/// Numbers that look random (xorshift), the same in each run.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % bound.max(1) as u64) as usize
-    }
-
-    fn shuffled(&mut self, from: usize, to: usize) -> Vec<u32> {
-        let mut numbers: Vec<u32> = (from as u32..to as u32).collect();
-        for last in (1..numbers.len()).rev() {
-            numbers.swap(last, self.below(last + 1));
-        }
-        numbers
-    }
 }
 
 /// The faces of `sets` in the order that was applied, resolved as a player resolves them.
@@ -104,7 +87,7 @@ fn check(text: &str, seed: u64) {
         let mut wanted = before.clone();
         for mesh in 0..count {
             let entry = document.meshes()[mesh].clone();
-            let (order, vertices) = values::orders(&mut random, &entry);
+            let (order, vertices) = random.orders(&entry);
             document
                 .edit(Edit::Order {
                     mesh,
@@ -206,11 +189,11 @@ fn every_reason_to_stay_is_said() {
         ),
         (
             "colorPerVertex FALSE color Color { color 1 0 0 }",
-            "its color goes by face and has less than faces",
+            "its color goes by face and has fewer entries than there are faces",
         ),
         (
             "colorPerVertex FALSE colorIndex 0",
-            "its colorIndex goes by face and has less than faces",
+            "its colorIndex goes by face and has fewer entries than there are faces",
         ),
         (
             "colorPerVertex FALSE colorIndex [ 0 -1 ]",
@@ -233,11 +216,11 @@ fn every_reason_to_stay_is_said() {
         ),
         (
             "normal Normals { vector [] }",
-            "a node of type \"Normals\" stands in it",
+            "it contains a node of type \"Normals\"",
         ),
         ("skin [ 1 2 ]", "its field \"skin\" may go by numbers"),
         ("colorPerVertex IS x", "a field IS one of a PROTO"),
-        ("ccw IS x", "IS stands in it"),
+        ("ccw IS x", "it contains IS"),
         (
             "} Script { field SFNode n NULL",
             "a Script that is handed nodes may read it by number",

@@ -1,7 +1,7 @@
-//! What a host of wasm32 calls: numbers, and places in the memory that it shares.
+//! What a wasm32 host calls, with numbers and addresses in the memory that both share.
 //!
 //! The module imports nothing: no clock, no random numbers, no output. So the text of a panic is kept
-//! where the host finds it after the trap.
+//! where the host can read it after the trap.
 
 use std::ptr::slice_from_raw_parts_mut;
 use std::slice;
@@ -12,7 +12,7 @@ use crate::{Request, optimize};
 /// The text of the last panic.
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
-/// From here on the text of a panic is kept, instead of printed where nobody reads it.
+/// Keeps the text of any later panic, instead of printing it where nobody reads it.
 #[unsafe(no_mangle)]
 pub extern "C" fn keep_panics() {
     std::panic::set_hook(Box::new(|panic| {
@@ -29,13 +29,13 @@ pub extern "C" fn panic_text() -> *const u8 {
         .as_ptr()
 }
 
-/// How many bytes it has.
+/// Its length in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn panic_text_bytes() -> usize {
     PANIC.lock().unwrap_or_else(PoisonError::into_inner).len()
 }
 
-/// Zeroed memory of at least that many bytes, aligned for any index; [`release`] takes it back.
+/// At least this many bytes of zeroed memory, aligned for any index; [`release`] frees them.
 // Not `malloc` and `free`: natively these names are taken.
 #[unsafe(no_mangle)]
 pub extern "C" fn allocate(bytes: usize) -> *mut u64 {
@@ -43,10 +43,10 @@ pub extern "C" fn allocate(bytes: usize) -> *mut u64 {
     Box::into_raw(memory).cast()
 }
 
-/// Takes memory back.
+/// Frees memory.
 ///
 /// # Safety
-/// It is from [`allocate`] with just so many bytes, and nobody uses it.
+/// `memory` comes from [`allocate`] with the same number of bytes, and is not used any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn release(memory: *mut u64, bytes: usize) {
     let slice = slice_from_raw_parts_mut(memory, words(bytes));
@@ -64,8 +64,8 @@ macro_rules! optimize_export {
         /// [`optimize`](crate::optimize) where the indices are; the status as a number.
         ///
         /// # Safety
-        /// That many indices are at `indices` and that many bytes at `target`, and nobody else uses
-        /// them during the call.
+        /// `indices` points to `index_count` indices and `target` to `target_bytes` bytes, which
+        /// nothing else uses during the call.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(
             indices: *mut $index,
@@ -103,7 +103,7 @@ optimize_export!(optimize_u32, u32);
 /// [`misses`](crate::misses) of indices of 32 bits.
 ///
 /// # Safety
-/// That many indices are at `indices` and that many bytes at `cache`, and nobody changes them
+/// `indices` points to `index_count` indices and `cache` to `cache_bytes` bytes, which do not change
 /// during the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn misses(
@@ -126,7 +126,7 @@ pub unsafe extern "C" fn misses(
 /// The text there; empty if it is not UTF-8.
 ///
 /// # Safety
-/// So many bytes are at `text`, and nobody changes them as long as the result is used.
+/// `text` points to this many bytes, which do not change as long as the result is used.
 unsafe fn text<'a>(text: *const u8, bytes: usize) -> &'a str {
     // SAFETY: the caller promises it.
     let text = unsafe { slice::from_raw_parts(text, bytes) };

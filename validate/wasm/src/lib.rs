@@ -13,9 +13,9 @@ use meshweft::{Budget, CacheModel, Faces, MeshError, cache};
 pub const KEEP_CORNERS: u32 = 1;
 /// Flag: vertices are renumbered.
 pub const RENUMBER_VERTICES: u32 = 2;
-/// As many steps mean that there is no budget.
+/// This number of steps stands for no budget.
 pub const UNLIMITED: u64 = u64::MAX;
-/// So many misses mean that they cannot be counted.
+/// Stands for misses that cannot be counted.
 pub const NO_COUNT: u64 = u64::MAX;
 
 /// How a call ended.
@@ -52,7 +52,7 @@ pub struct Request<'a> {
 /// Orders the indices in place.
 ///
 /// # Panics
-/// If there is no such effort. This is how the checks see what becomes of a panic.
+/// If there is no such effort. The checks use this to see what happens on a panic.
 pub fn optimize<I: VertexIndex>(
     indices: &mut [I],
     vertex_count: usize,
@@ -67,7 +67,7 @@ pub fn optimize<I: VertexIndex>(
             0 => Effort::Fast,
             1 => Effort::Best,
             2 => Effort::Max,
-            other => panic!("there is no effort {other}"),
+            other => panic!("{other} is not an effort: 0, 1 or 2"),
         },
         seed: request.seed,
         budget: match request.steps {

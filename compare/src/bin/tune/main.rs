@@ -119,7 +119,7 @@ impl Arguments {
         while let Some(argument) = arguments.next() {
             let mut value = || {
                 let value = arguments.next();
-                value.ok_or(format!("{argument} asks for a value"))
+                value.ok_or(format!("{argument} needs a value"))
             };
             match argument.as_str() {
                 "--target" => parsed.target = value()?.parse().map_err(|e| format!("{e}"))?,
@@ -153,7 +153,7 @@ impl Arguments {
 fn effort(name: &str) -> Result<Effort, String> {
     let mut known = [Effort::Fast, Effort::Best, Effort::Max].into_iter();
     let found = known.find(|effort| effort.to_string() == name);
-    found.ok_or(format!("{name} is no effort: fast, best or max"))
+    found.ok_or(format!("{name} is not an effort: fast, best or max"))
 }
 
 /// What numbers are judged by.
@@ -293,7 +293,7 @@ impl Tuning {
                     }
                     limit.0 = numbers[i];
                 }
-                // Beyond the last factor nobody has looked.
+                // Factors beyond the last one are not tried.
                 format!(
                     "{}{}",
                     decimal(limit.0),

@@ -8,7 +8,7 @@ use meshweft::{FaceOrder, Mesh, Permutation, VertexOrder};
 
 /// A trefoil knot as a tube whose rings are shifted and whose diagonals are random.
 pub(super) fn knot(face_count: u32) -> Mesh {
-    // Twice as many faces as vertices; the tube is about 22 times as long as it is round.
+    // Twice as many faces as vertices; the tube is about 22 times as long as its girth.
     let around = (face_count / 44).isqrt().max(5);
     let along = (face_count / (2 * around)).max(8);
 

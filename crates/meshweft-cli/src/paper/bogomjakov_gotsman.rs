@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use meshweft::operations::{Method, grid_orders, linear_arrangement_cost};
 use meshweft::order::{Effort, Target};
 use meshweft::{CacheModel, Mesh, cache};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::arguments::OfPaper;
 use super::figure::{Figure, cells, head, mean, print};
-use super::meshes::{LARGE, open};
+use super::meshes::{LARGE, none_found, open};
 
 /// Cache sizes of figures 4 and 8, which the paper drew as curves from 2 to 64.
 const SIZES: [u32; 9] = [4, 6, 8, 10, 12, 16, 24, 32, 64];
@@ -89,11 +89,7 @@ pub(super) fn run(arguments: &OfPaper) -> Result<()> {
     }
 
     if found.is_empty() || others.is_empty() {
-        bail!(
-            "{}: none of the paper's meshes is here. Files are looked for by name, such as \
-             bunny.ply, horse.obj or fandisk.off, optionally followed by .gz, and in a folder `meshes`",
-            arguments.data.display()
-        );
+        return Err(none_found(&arguments.data));
     }
 
     print(

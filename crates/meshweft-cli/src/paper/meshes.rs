@@ -1,8 +1,8 @@
-//! The papers' meshes among one's own files.
+//! The papers' meshes among the user's files.
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Error, Result, anyhow};
 use meshweft::files::Document;
 use meshweft::{Limits, Mesh};
 
@@ -24,4 +24,13 @@ pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mes
     let document = Document::open(&file, Limits::default())?;
     let largest = document.meshes().iter().max_by_key(|e| e.mesh.face_count());
     Ok(largest.map(|entry| (file, entry.mesh.clone())))
+}
+
+/// Says that the folder has none of a paper's meshes, and how they are looked for.
+pub(super) fn none_found(folder: &Path) -> Error {
+    anyhow!(
+        "{}: none of the paper's meshes is here. Files are looked for by name, such as bunny.ply, \
+         horse.obj or fandisk.off, optionally followed by .gz, and in a folder `meshes`",
+        folder.display()
+    )
 }

@@ -9,8 +9,11 @@ use anyhow::{Error, Result};
 
 /// Runs `work` on each of `count` items on `jobs` threads, and `report` on each result in order.
 ///
-/// The first failure, in that order, is returned at the end. Unless `keep_going`, no further item
-/// is begun after a failure.
+/// Unless `keep_going`, no further item is begun after a failure.
+///
+/// # Errors
+/// At once, that of a `report`; else at the end, the first failure of `work` in the order of the
+/// items.
 pub(super) fn run<T: Send>(
     count: usize,
     jobs: usize,
@@ -21,7 +24,9 @@ pub(super) fn run<T: Send>(
     let next = AtomicUsize::new(0);
     let is_stopped = AtomicBool::new(false);
     let (sender, results) = mpsc::channel();
+
     thread::scope(|scope| {
+        // Each thread takes the next item, until none is left.
         for _ in 0..jobs.clamp(1, count.max(1)) {
             let (sender, next, is_stopped, work) = (sender.clone(), &next, &is_stopped, &work);
             scope.spawn(move || {
@@ -40,11 +45,10 @@ pub(super) fn run<T: Send>(
                 }
             });
         }
+        // The results end when the last thread has dropped its sender.
         drop(sender);
 
-        let mut waiting = BTreeMap::new();
         let mut first_failure = None;
-        let mut turn = 0;
         let mut show = |item, result: Result<T>| -> Result<()> {
             let reported = report(item, result.as_ref());
             if reported.is_err() {
@@ -58,6 +62,8 @@ pub(super) fn run<T: Send>(
         };
 
         // Results that come before their turn wait for it.
+        let mut waiting = BTreeMap::new();
+        let mut turn = 0;
         for (item, result) in results {
             waiting.insert(item, result);
             while let Some(result) = waiting.remove(&turn) {

@@ -1,5 +1,6 @@
 //! The files that the command line names: one by one, by folder, or by pattern.
 
+use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
 
@@ -12,7 +13,8 @@ use crate::usage::Usage;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Input {
     pub(crate) path: PathBuf,
-    /// Path relative to the named folder, recreated under the output.
+    /// Where it goes below an output folder: its path from the folder that was named, or that a
+    /// pattern starts with; of a file that was named, its name.
     pub(crate) relative: PathBuf,
 }
 
@@ -21,16 +23,20 @@ pub(crate) struct Input {
 ///
 /// A folder gives every mesh file in it and below, without hidden ones and without those in
 /// `except`. A name that has `*`, `?` or `[` and does not exist as a file is a pattern.
+///
+/// # Errors
+/// A folder that cannot be read; a folder or a pattern without a mesh file; a pattern that is none.
 pub(crate) fn expand(names: &[PathBuf], except: Option<&Path>) -> Result<Vec<Input>> {
     let except = except.and_then(|folder| fs::canonicalize(folder).ok());
     let mut inputs: Vec<Input> = Vec::new();
+
     for name in names {
         let before = inputs.len();
         if name.is_dir() {
-            walk(name, Path::new(""), except.as_deref(), &mut inputs)
+            add_below(name, Path::new(""), except.as_deref(), &mut inputs)
                 .with_context(|| name.display().to_string())?;
         } else if let Some(pattern) = pattern(name) {
-            matching(pattern, &mut inputs)?;
+            add_matching(pattern, &mut inputs)?;
         } else {
             // A file that is not there is reported when its turn comes.
             let relative = name.file_name().map_or_else(|| name.clone(), PathBuf::from);
@@ -45,13 +51,15 @@ pub(crate) fn expand(names: &[PathBuf], except: Option<&Path>) -> Result<Vec<Inp
         }
     }
 
-    let mut seen = std::collections::BTreeSet::new();
+    // A file may be named twice, or be in two of the folders.
+    let mut seen = BTreeSet::new();
     inputs.retain(|input| seen.insert(input.path.clone()));
     Ok(inputs)
 }
 
-/// Adds the mesh files in `root` joined with `below`, and deeper.
-fn walk(
+/// Adds the mesh files in the folder `below` of `root`, and deeper, but not those in `except`, a
+/// canonical path.
+fn add_below(
     root: &Path,
     below: &Path,
     except: Option<&Path>,
@@ -62,6 +70,7 @@ fn walk(
         return Ok(());
     }
 
+    // Sorted by name: the system gives them in any order.
     let mut entries = fs::read_dir(&folder)?.collect::<io::Result<Vec<_>>>()?;
     entries.sort_by_key(fs::DirEntry::file_name);
     for entry in entries {
@@ -69,10 +78,11 @@ fn walk(
         if name.as_encoded_bytes().starts_with(b".") {
             continue;
         }
+
         let relative = below.join(&name);
         // Links to folders are not followed: they may lead in circles.
         if entry.file_type()?.is_dir() {
-            walk(root, &relative, except, inputs)?;
+            add_below(root, &relative, except, inputs)?;
         } else if Format::of_path(&relative).is_some() && entry.path().is_file() {
             let path = root.join(&relative);
             inputs.push(Input { path, relative });
@@ -88,14 +98,19 @@ fn pattern(name: &Path) -> Option<&str> {
 }
 
 /// Adds the mesh files that a pattern matches.
-fn matching(pattern: &str, inputs: &mut Vec<Input>) -> Result<()> {
+fn add_matching(pattern: &str, inputs: &mut Vec<Input>) -> Result<()> {
     let paths = glob::glob(pattern).map_err(|error| Usage(format!("{pattern}: {error}")))?;
-    // What stands before the first wildcard is the folder that the output does not repeat.
-    let plain = |part: &Component<'_>| {
+
+    // The folders before the first wildcard are not repeated below the output.
+    let is_plain = |part: &Component<'_>| {
         let text = part.as_os_str().as_encoded_bytes();
         !text.iter().any(|byte| b"*?[".contains(byte))
     };
-    let prefix: PathBuf = Path::new(pattern).components().take_while(plain).collect();
+    let prefix: PathBuf = Path::new(pattern)
+        .components()
+        .take_while(is_plain)
+        .collect();
+
     for path in paths {
         let path = path.with_context(|| pattern.to_owned())?;
         if Format::of_path(&path).is_some() && path.is_file() {
@@ -106,7 +121,7 @@ fn matching(pattern: &str, inputs: &mut Vec<Input>) -> Result<()> {
     Ok(())
 }
 
-/// Share `index` of `count` (from 1) of the inputs: every `count`-th.
+/// Share `index` of `count`, counted from 1: every `count`-th item from that one on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Shard {
     index: usize,
@@ -114,7 +129,7 @@ pub(crate) struct Shard {
 }
 
 impl Shard {
-    /// What of `all` belongs to this share.
+    /// The items of `all` that belong to this share.
     pub(crate) fn of<T>(self, all: Vec<T>) -> Vec<T> {
         let first = self.index - 1;
         all.into_iter().skip(first).step_by(self.count).collect()

@@ -2,10 +2,10 @@
 
 use std::sync::{RwLock, RwLockReadGuard};
 
-/// Held for reading by whoever writes a file.
+/// Held for reading by each thread that writes a file, for writing by the one that ends the program.
 static WRITES: RwLock<()> = RwLock::new(());
 
-/// The exit code of a program ended by Ctrl-C.
+/// The exit code of a program ended by Ctrl-C: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
 
 /// From now on a signal waits for the files that are being written, then ends the program; a second
@@ -17,8 +17,9 @@ pub(super) fn watch() {
         if std::mem::replace(&mut is_second, true) {
             std::process::exit(INTERRUPTED);
         }
+        // On a thread of its own, so that a second signal is heard while this one waits.
         std::thread::spawn(|| {
-            let _writes = WRITES.write();
+            let _no_writes = WRITES.write();
             eprintln!("interrupted: every file is as it was, or whole");
             std::process::exit(INTERRUPTED);
         });

@@ -29,6 +29,10 @@ pub(crate) struct Job {
 
 impl Jobs {
     /// Every file that `names` stand for, or the run's share of them, and where it goes.
+    ///
+    /// # Errors
+    /// No place to write, several files to one place, an input that would be replaced unasked, and
+    /// what [`inputs::expand`] refuses.
     pub(crate) fn new(names: &[PathBuf], run: &Run) -> Result<Self> {
         let output = run.output.as_deref();
         if output.is_none() && !run.in_place && !run.dry_run {
@@ -36,15 +40,14 @@ impl Jobs {
             return Err(Usage(text.into()).into());
         }
 
+        // An output folder of an earlier run is no input, even within a folder that is.
         let inputs = inputs::expand(names, output)?;
         let is_one_file = inputs.len() == 1 && names[0] == inputs[0].path;
-        // A folder is made, unless the name is taken or looks like that of one mesh.
-        let is_file =
-            |out: &Path| !is_folder(out) && (out.exists() || Format::of_path(out).is_some());
         if !is_one_file && output.is_some_and(is_file) {
             return Err(Usage("several files go into a folder: give -o FOLDER/".into()).into());
         }
 
+        // Where each goes; no two to the same place.
         let mut list = Vec::new();
         let mut input_of: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
         for input in inputs {
@@ -57,6 +60,7 @@ impl Jobs {
                 input: input.path,
                 target,
             };
+
             if output.is_some() {
                 job.check_that_input_stays()?;
             }
@@ -79,11 +83,12 @@ impl Jobs {
 }
 
 impl Job {
-    /// An input is replaced only by those who say so.
+    /// Refuses a target that is the input: that takes `--in-place`.
     fn check_that_input_stays(&self) -> Result<(), Usage> {
-        let same =
+        // Most targets do not exist yet, and then are no input either.
+        let is_same =
             |a: &Path, b: &Path| Some(fs::canonicalize(a).ok()? == fs::canonicalize(b).ok()?);
-        match same(&self.target, &self.input) {
+        match is_same(&self.target, &self.input) {
             Some(true) => Err(Usage(format!(
                 "{} is the input itself: use --in-place to replace it",
                 self.target.display()
@@ -92,6 +97,7 @@ impl Job {
         }
     }
 
+    /// The error of two inputs with one target.
     fn collision_with(&self, other: &Path) -> Usage {
         Usage(format!(
             "{} and {} would both be written to {}: do them one at a time",
@@ -102,12 +108,19 @@ impl Job {
     }
 }
 
+/// Whether an output is a folder, or is to become one.
 fn is_folder(out: &Path) -> bool {
     out.is_dir() || out.as_os_str().as_encoded_bytes().ends_with(b"/")
 }
 
-/// Buffers that two glTF files of one folder read: moved for one, they would be wrong for the
-/// other.
+/// Whether an output must be a file: its name is taken by one or looks like that of a mesh. Any
+/// other name becomes a folder where several files need one.
+fn is_file(out: &Path) -> bool {
+    !is_folder(out) && (out.exists() || Format::of_path(out).is_some())
+}
+
+/// Buffers that two glTF files of one folder read: rearranged for one, they would be wrong for the
+/// other. Files that are not inputs count too, if they are in the folder of one.
 fn shared_buffers(jobs: &[Job]) -> Vec<PathBuf> {
     let is_gltf = |path: &Path| matches!(Format::of_path(path), Some(Format::Gltf | Format::Glb));
     let inputs = jobs.iter().filter(|job| is_gltf(&job.input));
@@ -115,18 +128,21 @@ fn shared_buffers(jobs: &[Job]) -> Vec<PathBuf> {
 
     let mut shared = Vec::new();
     for folder in folders {
+        // Every file beside the inputs; paths as the inputs spell them.
         let here = match folder.as_os_str().is_empty() {
             true => Path::new("."),
             false => folder,
         };
         let entries = fs::read_dir(here).into_iter().flatten().flatten();
-        // Paths as the inputs spell them.
         let paths = entries.map(|entry| folder.join(entry.file_name()));
+
+        // A buffer that a second file reads is shared.
         let mut seen = BTreeSet::new();
         for path in paths.filter(|path| is_gltf(path)) {
-            // A file that cannot be read reads no buffer either.
+            // A file that cannot be read has no buffers. One file may read a buffer twice.
             let buffers = external_buffers(&path, &Limits::default()).unwrap_or_default();
-            for buffer in buffers.into_iter().collect::<BTreeSet<_>>() {
+            let buffers: BTreeSet<_> = buffers.into_iter().collect();
+            for buffer in buffers {
                 if !seen.insert(buffer.clone()) {
                     shared.push(buffer);
                 }

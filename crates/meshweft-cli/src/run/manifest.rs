@@ -19,7 +19,7 @@ pub(super) struct Manifest {
 }
 
 impl Manifest {
-    /// Opens the manifest, and reads what is in it.
+    /// Opens the manifest, or a new one, and reads what is in it.
     pub(super) fn open(path: &Path) -> Result<Self> {
         let context = || path.display().to_string();
         let text = match fs::read(path) {
@@ -28,6 +28,7 @@ impl Manifest {
             Err(error) => return Err(error).with_context(context),
         };
 
+        // What is done. Lines that are not whole, or say something else, are passed over.
         let mut done = BTreeSet::new();
         let lines = text
             .split_inclusive('\n')
@@ -36,9 +37,9 @@ impl Manifest {
             let Ok(line) = serde_json::from_str::<Value>(line) else {
                 continue;
             };
-            let of = |name: &str| line[name].as_str().map(str::to_owned);
+            let member = |name: &str| line[name].as_str().map(str::to_owned);
             if line["status"] == "done"
-                && let Some(pair) = of("file").zip(of("output"))
+                && let Some(pair) = member("file").zip(member("output"))
             {
                 done.insert(pair);
             }
@@ -46,7 +47,7 @@ impl Manifest {
 
         let file = OpenOptions::new().append(true).create(true).open(path);
         let mut file = file.with_context(context)?;
-        // A run that was killed may have left half a line.
+        // A run that was killed may have left half a line: the next one must not be added to it.
         if !text.is_empty() && !text.ends_with('\n') {
             file.write_all(b"\n").with_context(context)?;
         }
@@ -63,7 +64,7 @@ impl Manifest {
         self.done.contains(&pair) && output.exists()
     }
 
-    /// Adds the line of a finished input, whole.
+    /// Adds the line of an input: the sums of its report, as JSON, or why it failed.
     pub(super) fn add(
         &self,
         input: &Path,
@@ -86,6 +87,7 @@ impl Manifest {
             }
         }
 
+        // In one write: no other thread's line comes in between.
         let line = format!("{line}\n");
         let mut file = self.file.lock().unwrap_or_else(|lock| lock.into_inner());
         file.write_all(line.as_bytes())

@@ -33,15 +33,19 @@ use workers::Workers;
 pub(crate) struct Outcome {
     /// Its report, one line of JSON.
     pub(crate) json: String,
-    /// What the manifest keeps of it, as JSON.
-    pub(crate) total: String,
+    /// Its report for people, without a line break at the end.
     pub(crate) text: String,
+    /// What its reader left as it is, a line each.
     pub(crate) notes: Vec<String>,
+    /// The sums of the report, as JSON: what the manifest keeps of it.
+    pub(crate) total: String,
 }
 
-/// Does `work` on the file of each job, on its own thread pool, and reports it under `verb`.
+/// Does `work` on the file of each job, several at once, each in a thread pool of its own, and reports
+/// it under `verb` in the order of the jobs.
 ///
-/// The first failure is returned.
+/// # Errors
+/// The first failure, in that order. Later ones are printed.
 pub(crate) fn over_files(
     verb: &str,
     jobs: &[Job],
@@ -55,23 +59,27 @@ pub(crate) fn over_files(
         prepare_to_write(jobs);
     }
 
-    let one = |index: usize| {
+    // On a worker's thread: one job, and its line in the manifest.
+    let do_job = |index: usize| {
         let job = &jobs[index];
-        let earlier = manifest.as_ref();
-        if earlier.is_some_and(|manifest| manifest.has(&job.input, &job.target)) {
+        let listed = manifest.as_ref();
+        if listed.is_some_and(|manifest| manifest.has(&job.input, &job.target)) {
             return Ok(done_before(verb, job));
         }
-        let done = workers.threads()?.install(|| work(job));
+
+        let done = workers.pool()?.install(|| work(job));
         if let (Some(manifest), false) = (&manifest, run.dry_run) {
-            list(manifest, job, &done)?;
+            list_in(manifest, job, &done)?;
         }
         done
     };
 
+    // On this thread: what there is to say about it.
     let bar = output::progress(jobs.len(), report);
     let mut is_first_failure = true;
     let tell = |index: usize, result: Result<&Outcome, &Error>| {
         bar.inc(1);
+        // Hidden while lines are printed, or they would be drawn over.
         bar.suspend(|| match result {
             Ok(outcome) => {
                 report.json_line(&outcome.json)?;
@@ -82,7 +90,7 @@ pub(crate) fn over_files(
                 let file = jobs[index].input.display().to_string();
                 let text = usage::message(error);
                 report.json(verb, &json!({"file": file, "error": text}))?;
-                // The first is reported as the error of the whole run.
+                // The caller prints the first one, as the error of the whole run.
                 if !std::mem::take(&mut is_first_failure) {
                     eprintln!("error: {text}");
                 }
@@ -91,12 +99,12 @@ pub(crate) fn over_files(
         })
     };
 
-    let done = batch::run(jobs.len(), workers.jobs, run.keep_going, one, tell);
+    let done = batch::run(jobs.len(), workers.jobs, run.keep_going, do_job, tell);
     bar.finish_and_clear();
     done
 }
 
-/// Lets no signal cut a file short, and removes what runs that were killed left behind.
+/// Lets no signal cut a file short, and removes the temporary files of runs that were killed.
 fn prepare_to_write(jobs: &[Job]) {
     interrupt::watch();
     let folders: BTreeSet<_> = jobs.iter().filter_map(|job| job.target.parent()).collect();
@@ -119,9 +127,9 @@ fn done_before(verb: &str, job: &Job) -> Outcome {
     }
 }
 
-/// Adds a finished job to the manifest.
-fn list(manifest: &Manifest, job: &Job, done: &Result<Outcome>) -> Result<()> {
-    let _whole = interrupt::hold_off();
+/// Adds a job that is done, or has failed, to the manifest.
+fn list_in(manifest: &Manifest, job: &Job, done: &Result<Outcome>) -> Result<()> {
+    let _no_interrupt = interrupt::hold_off();
     let total = done.as_ref().map(|outcome| outcome.total.as_str());
     manifest.add(&job.input, &job.target, total.map_err(usage::message))
 }

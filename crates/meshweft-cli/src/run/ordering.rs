@@ -71,6 +71,7 @@ impl Ordering {
             allow_worse: self.allow_worse,
             ..Options::default()
         };
+
         options.check().map_err(|error| Usage(error.to_string()))?;
         match options.greedy.is_some() && self.time_budget.is_some() {
             true => Err(Usage(
@@ -142,7 +143,7 @@ impl FromStr for TimeBudget {
     fn from_str(text: &str) -> Result<Self, String> {
         let split = text.find(|c: char| c.is_ascii_alphabetic());
         let (number, unit) = text.split_at(split.unwrap_or(text.len()));
-        let unit = match unit {
+        let seconds = match unit {
             "ms" => 0.001,
             "s" => 1.0,
             "m" => 60.0,
@@ -150,7 +151,7 @@ impl FromStr for TimeBudget {
             _ => return Err("a number with ms, s, m or h, such as 5s".into()),
         };
         let number: f64 = number.parse().map_err(|_| "no number before the unit")?;
-        let time = Duration::try_from_secs_f64(number * unit);
+        let time = Duration::try_from_secs_f64(number * seconds);
         time.map(Self).map_err(|error| error.to_string())
     }
 }

@@ -36,7 +36,7 @@ impl Report {
         self.json_line(&headed(verb, members))
     }
 
-    /// Whether people may be told how far it is.
+    /// Whether people may be shown how far the work is.
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet
     }
@@ -62,7 +62,7 @@ impl Report {
     }
 }
 
-/// The members of a report after those that every report begins with, as one line of JSON.
+/// A report as one line of JSON: what every report begins with, then these members.
 pub(super) fn headed(verb: &str, members: &Value) -> String {
     let mut report = Map::new();
     report.insert("schema".into(), json!(SCHEMA));
@@ -100,7 +100,7 @@ pub(crate) fn progress(files: usize, report: &Report) -> ProgressBar {
     )
 }
 
-/// Whether whoever read our output has gone: not an error, and nobody is left to tell.
+/// Whether the reader of the program's output has gone: not an error, and nobody is left to tell.
 pub(crate) fn is_broken_pipe(error: &Error) -> bool {
     let io = error.chain().filter_map(|e| e.downcast_ref::<io::Error>());
     io.into_iter()

@@ -8,13 +8,13 @@ use meshweft::Progress;
 
 /// Work that takes less is over before a bar is of use.
 const SHOWN_AFTER: Duration = Duration::from_secs(1);
-/// Steps of a bar.
+/// Positions of the bar: tenths of a percent.
 const STEPS: u32 = 1000;
 
 /// Watches over the work on one file.
 pub(crate) struct Watch {
     start: Instant,
-    /// How long it is to take, whatever the effort.
+    /// How long the search of the file may take, whatever the effort.
     time: Option<Duration>,
     bar: ProgressBar,
 }
@@ -51,6 +51,7 @@ impl Progress for Watch {
     }
 
     fn time_spent(&self) -> Option<f64> {
+        // Never 0, by which it is divided.
         let time = self.time?.as_secs_f64().max(f64::MIN_POSITIVE);
         Some(self.start.elapsed().as_secs_f64() / time)
     }

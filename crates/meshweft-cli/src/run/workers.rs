@@ -10,22 +10,25 @@ use crate::usage::Usage;
 pub(super) struct Workers {
     /// Files worked on at once.
     pub(super) jobs: usize,
-    /// For each file.
+    /// Threads for each of them.
     threads: usize,
 }
 
 impl Workers {
-    /// What was asked for, or the cores shared out.
+    /// What was asked for; what was not is the cores shared out among `files`.
     ///
     /// # Errors
-    /// More threads for all jobs together than a system starts.
+    /// More than [`MOST_THREADS`] for all jobs together.
     pub(super) fn new(run: &Run, files: usize) -> Result<Self, Usage> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let cores = cores.min(MOST_THREADS);
+
+        // As many jobs as the cores have room for, then as many threads as the jobs leave.
         let asked_threads = run.threads.map_or(1, usize::from);
         let jobs = run.jobs.map_or((cores / asked_threads).max(1), usize::from);
         let jobs = jobs.min(files.max(1));
         let threads = run.threads.map_or(cores.div_ceil(jobs), usize::from);
+
         match jobs * threads <= MOST_THREADS {
             true => Ok(Self { jobs, threads }),
             false => Err(Usage(format!(
@@ -35,9 +38,9 @@ impl Workers {
         }
     }
 
-    /// The threads for a file.
-    pub(super) fn threads(&self) -> Result<ThreadPool> {
-        let threads = ThreadPoolBuilder::new().num_threads(self.threads).build();
-        threads.context("no threads to work with")
+    /// A new pool of threads for one file.
+    pub(super) fn pool(&self) -> Result<ThreadPool> {
+        let pool = ThreadPoolBuilder::new().num_threads(self.threads).build();
+        pool.context("no threads to work with")
     }
 }

@@ -69,7 +69,7 @@ fn optimize_improves_keeps_the_triangles_and_settles() {
         again.out()
     );
     assert_eq!(folder.read("again.obj"), folder.read("out.obj"));
-    // What is no face and no vertex stands where it stood.
+    // What is neither face nor vertex stays in its place.
     let head = |bytes: Vec<u8>| {
         String::from_utf8(bytes)
             .unwrap()

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::{Folder, data_folder};
 
-/// The endings of the mesh formats that are no glTF.
+/// The endings of the mesh formats other than glTF.
 const MESHES: &[&str] = &[".obj", ".ply", ".off", ".stl", ".wrl"];
 
 /// The files below a folder with one of these endings (`.gz` aside), sorted.
@@ -31,13 +31,19 @@ fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     found
 }
 
+/// Real meshes and scenes.
+fn real_files(data: &Path) -> Vec<PathBuf> {
+    let mut paths = files(&data.join("meshes"), MESHES);
+    paths.extend(files(&data.join("gltf"), &[".glb", ".gltf"]));
+    paths
+}
+
 #[test]
 fn every_real_mesh_keeps_its_triangles_and_gets_no_worse() {
     let Some(data) = data_folder("real meshes") else {
         return;
     };
-    let mut paths = files(&data.join("meshes"), MESHES);
-    paths.extend(files(&data.join("gltf"), &[".glb", ".gltf"]));
+    let mut paths = real_files(&data);
     // The dragon alone would take most of the time in an unoptimised build.
     paths.retain(|path| !path.ends_with("dragon.ply.gz"));
     let mut improved = 0;
@@ -120,8 +126,7 @@ fn every_flag_keeps_the_triangles_on_any_number_of_threads() {
     let Some(data) = data_folder("flags on real meshes") else {
         return;
     };
-    let mut paths = files(&data.join("meshes"), MESHES);
-    paths.extend(files(&data.join("gltf"), &[".glb", ".gltf"]));
+    let mut paths = real_files(&data);
     // Each file with two of the sets, the larger ones left to the other test.
     paths.retain(|path| fs::metadata(path).unwrap().len() < 500_000);
     let folder = Folder::new("flags");

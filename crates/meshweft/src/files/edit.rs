@@ -48,7 +48,8 @@ impl<'a> Edit<'a> {
 pub struct NewValue<'a> {
     /// Where it goes, as a JSON pointer (RFC 6901) to what is not there yet. A last part `-` is the
     /// end of an array. Objects and arrays on the way are made if they are not there:
-    /// `/nodes/3/extensions/MSFT_lod`, `/extensionsUsed/-`.
+    /// `/nodes/3/extensions/MSFT_lod`, `/extensionsUsed/-`. What a buffer holds comes with meshes only:
+    /// neither a buffer is added as a value, nor a `uri` or `byteLength` of one.
     pub pointer: &'a str,
     /// The value, as JSON text.
     pub json: &'a str,

@@ -36,6 +36,10 @@ impl<'a> NewMesh<'a> {
 pub enum NewVertices<'a> {
     /// Those of this mesh of the document, with all that is stored with them and with its material;
     /// nothing is copied. The new mesh is drawn where that one is: at the first node that draws it.
+    ///
+    /// If that mesh has no indices, its faces can be ordered no more: they are its vertices, which the
+    /// new mesh numbers. It is left out of [`Document::meshes`](super::Document::meshes) from then on,
+    /// with a note.
     Shared(usize),
     /// What is stored with them: one attribute is the position. The new mesh is drawn at the root of
     /// the scene.

@@ -68,7 +68,7 @@ pub(crate) fn wrong_arrows(sources: &Sources) -> Vec<String> {
         }
         let Some((room, allowed)) = ROOMS.iter().find(|(room, _)| *room == source.room()) else {
             wrong.push(format!(
-                "{}: {} is no room of the table",
+                "{}: {} is not a room of the table",
                 source.name,
                 source.room()
             ));
@@ -174,7 +174,7 @@ fn an_arrow_that_points_upward_is_found() {
     let mut wrong = wrong_arrows(&Sources::planted(&files));
     wrong.sort();
     let (attic, wrong) = wrong.split_first().unwrap();
-    assert_eq!(attic, "attic.rs: attic is no room of the table");
+    assert_eq!(attic, "attic.rs: attic is not a room of the table");
     assert_eq!(wrong, expected);
 }
 

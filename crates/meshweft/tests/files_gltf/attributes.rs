@@ -320,6 +320,29 @@ fn sparse_elements_are_read_where_they_cannot_be_moved() {
 }
 
 #[test]
+fn sparse_matrices_have_room_between_them() {
+    let builder = &mut Builder::default();
+    let position = of_each(builder, U8, "VEC3", |i| [i; 3]);
+    let narrow = of_each(builder, U8, "MAT3", |_| [0; 12]);
+    // The room at the end of the last one may be left out.
+    let matrix = |i: u8| [i, 1, 2, 0xEE, 3, 4, 5, 0xEE, 6, 7, i, 0xEE];
+    let matrices = &[matrix(5), matrix(20)].concat()[..23];
+    builder.accessors[narrow]["sparse"] = sparse(builder, &[5, 20], matrices);
+    let meshes = json!([{"primitives": [{"indices": builder.indices(U16, &faces(60, COUNT)),
+        "attributes": {"POSITION": position, "_NARROW": narrow}}]}]);
+    let mut document = open(&builder.glb(&meshes, &json!({})));
+    for seed in 0..5 {
+        let [ids, matrices] = ["POSITION", "_NARROW"].map(|name| bits(&named(&document, 0, name)));
+        for (id, matrix) in ids.iter().zip(matrices) {
+            let scale = u64::from([5, 20].contains(&id[0]));
+            let replaced = [id[0], 1, 2, 3, 4, 5, 6, 7, id[0]];
+            assert_eq!(matrix, replaced.map(|n| n * scale));
+        }
+        random_orders(&mut document, seed);
+    }
+}
+
+#[test]
 fn a_mesh_of_several_primitives_lists_those_of_the_first() {
     let builder = &mut Builder::default();
     let first = builder.data(F32, "VEC3", 20);

@@ -2,6 +2,7 @@
 #![cfg(feature = "files")]
 
 mod append;
+mod append_edges;
 mod attributes;
 mod broken;
 mod builder;

@@ -5,7 +5,8 @@ use meshweft::files::Format;
 
 use super::errors::error_of;
 use super::stl::{ASCII, binary};
-use super::{OBJ, PLY, PLY_HEAD, PLY_ROWS, Random, binary_ply, error, name_of, round_trip};
+use super::{OBJ, PLY, PLY_HEAD, PLY_ROWS, binary_ply, error, name_of, round_trip};
+use crate::random::Random;
 
 #[test]
 fn limits_are_kept() {
@@ -52,7 +53,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         (String::new(), off, format!("line 1: the file ends inside the header: an OFF file starts with the word OFF. {cut}")),
         ("solid x\n".into(), off, "line 1: \"solid\" where an OFF file has the word OFF: is it another format?".into()),
         ("OFF BINARY\n".into(), off, "line 1: binary OFF is not read. Convert it to ascii OFF or to PLY first".into()),
-        ("OFF\n-4 2 0\n".into(), off, "line 2: the number of vertices is \"-4\", which counts nothing".into()),
+        ("OFF\n-4 2 0\n".into(), off, "line 2: the number of vertices is \"-4\", which is not a count".into()),
         ("OFF\n1 1 0 0 0 0\n3 0 0 0\n".into(), off, "line 2: after the counts of vertices, faces and edges a new line must begin".into()),
         ("OFF\n2 1 0\n0 0 0\n0 0\n".into(), off, "line 4: vertex 1 has 2 numbers on its line and needs 3".into()),
         ("OFF\n2 1 0\n0 0 0\n".into(), off, format!("line 4: the file ends inside vertex 1 of 2. {cut}")),
@@ -99,12 +100,12 @@ fn stl_cases() -> Vec<(Vec<u8>, String)> {
         (short, format!("byte 233: the file ends inside facet 2 of 3. {cut}")),
         (solid, format!("byte 233: the file ends inside facet 2 of 3. {cut}")),
         (other, "byte 134: 1954047348 facets are promised and 1 are there: is it another format? An ascii STL file starts with the word solid".into()),
-        text("solid\nendsolid\nx".into(), "line 3: \"x\" where \"solid\" or the end of the file should stand"),
-        text("solidx\nendsolid\n".into(), "line 1: \"solidx\" where \"solid\" or the end of the file should stand"),
+        text("solid\nendsolid\nx".into(), "line 3: \"x\" where \"solid\" or the end of the file is expected"),
+        text("solidx\nendsolid\n".into(), "line 1: \"solidx\" where \"solid\" or the end of the file is expected"),
         text(format!("solid\n{facet}\n"), &format!("line 3: the file ends inside solid 0: there is no endsolid. {cut}")),
         text(format!("solid\n{facet}\nfacet\n"), &format!("line 4: the file ends inside facet 1. {cut}")),
-        text(format!("solid\n{facet}\nsolid\n"), "line 3: \"solid\" where \"facet\" or \"endsolid\" should stand"),
-        text(format!("solid\n{}", facet.replace("endloop", "vertex")), "line 2: \"vertex\" where \"endloop\" of facet 0 should stand"),
+        text(format!("solid\n{facet}\nsolid\n"), "line 3: \"solid\" where \"facet\" or \"endsolid\" is expected"),
+        text(format!("solid\n{}", facet.replace("endloop", "vertex")), "line 2: \"vertex\" where \"endloop\" of facet 0 is expected"),
         text(format!("solid\n{}", facet.replace("vertex 1 0 0", "vertex 1 zero 0")), "line 2: facet 0, corner 1: \"zero\" is not a coordinate: write a number"),
         text(format!("solid\n{}", facet.replace("normal 0 0 1", "normal 0 0 ü")), "line 2: facet 0: \"ü\" is not part of a normal: write a number"),
     ]
@@ -153,13 +154,7 @@ fn spoilt_files_are_refused_or_survive() {
         let name = name_of(format).to_str().unwrap();
         round_trip::check(&bytes, format, name);
         for _ in 0..10_000 {
-            let mut spoilt = bytes.clone();
-            for _ in 0..=random.below(3) {
-                let at = random.below(spoilt.len());
-                let end = spoilt.len().min(at + random.below(4));
-                let piece = pieces[random.below(pieces.len())];
-                spoilt.splice(at..end, piece.iter().copied());
-            }
+            let spoilt = random.spoilt(&bytes, &pieces, 4);
             round_trip::check(&spoilt, format, name);
         }
     }

@@ -5,7 +5,8 @@ use meshweft::files::{Document, Edit, Format};
 
 use super::data::folder;
 use super::follow::{all, assert_follow, assert_same, listed, values};
-use super::{Random, broken, open, written};
+use super::{broken, open, written};
+use crate::random::Random;
 
 /// Puts the records in random orders, and asserts that all values follow, in memory and in what is
 /// written.
@@ -18,8 +19,7 @@ pub(crate) fn check_values(bytes: &[u8], format: Format, seed: u64) -> usize {
     for _ in 0..2 {
         let entry = document.meshes()[0].clone();
         let before = all(&document, 0);
-        let faces = random.face_order(&entry);
-        let vertices = random.vertex_order(&entry);
+        let (faces, vertices) = random.orders(&entry);
         document
             .edit(Edit::Order {
                 mesh: 0,
@@ -200,20 +200,14 @@ fn values_of_spoilt_files_are_refused_or_survive() {
     let mut random = Random(5);
     for (bytes, format) in files {
         for _ in 0..4_000 {
-            let mut spoilt = bytes.clone();
-            for _ in 0..=random.below(3) {
-                let at = random.below(spoilt.len());
-                let end = spoilt.len().min(at + random.below(3));
-                let piece = pieces[random.below(pieces.len())];
-                spoilt.splice(at..end, piece.iter().copied());
-            }
+            let spoilt = random.spoilt(&bytes, &pieces, 3);
             let name = super::name_of(format);
             let document = Document::from_bytes(spoilt, format, name, Limits::default());
             let Ok(mut document) = document else { continue };
             let Some(entry) = document.meshes().first().cloned() else {
                 continue;
             };
-            let (faces, vertices) = (random.face_order(&entry), random.vertex_order(&entry));
+            let (faces, vertices) = random.orders(&entry);
             document
                 .edit(Edit::Order {
                     mesh: 0,

@@ -31,7 +31,7 @@ pub(crate) fn read(bytes: &[u8], format: Format) -> Pieces {
         Format::Off => read_off(bytes),
         Format::Ply => read_ply(bytes),
         Format::Stl => super::simple_stl::read(bytes),
-        other => panic!("{other} is no text format"),
+        other => panic!("{other} is not a text format"),
     }
 }
 

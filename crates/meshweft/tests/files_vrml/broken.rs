@@ -6,7 +6,8 @@ use meshweft::Limits;
 use meshweft::files::Format;
 
 use super::errors::error_of;
-use super::{BINDINGS, NAME, Random, SHARING, face_set, round_trip};
+use super::{BINDINGS, NAME, SHARING, face_set, round_trip};
+use crate::random::Random;
 
 fn error(text: &str) -> String {
     error_of(text.as_bytes(), NAME, Limits::default())
@@ -85,11 +86,11 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ),
         (
             set("0 zero 0", "0"),
-            "line 3: \"zero\" where a number of \"point\" should stand".into(),
+            "line 3: \"zero\" where a number of \"point\" is expected".into(),
         ),
         (
             "IndexedFaceSet { coordIndex }".into(),
-            "line 2: \"}\" where a number of \"coordIndex\" should stand".into(),
+            "line 2: \"}\" where a number of \"coordIndex\" is expected".into(),
         ),
         (
             "IndexedFaceSet { coordIndex [ 0".into(),
@@ -97,7 +98,7 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ),
         (
             "IndexedFaceSet { colorPerVertex 1 }".into(),
-            "line 2: \"1\" where TRUE or FALSE should stand".into(),
+            "line 2: \"1\" where TRUE or FALSE is expected".into(),
         ),
         (
             "Group { children [ \"a\\\"".into(),
@@ -217,13 +218,7 @@ fn spoilt_files_are_refused_or_survive() {
     for text in [BINDINGS, SHARING] {
         round_trip::check(text.as_bytes(), Format::Vrml, NAME);
         for _ in 0..10_000 {
-            let mut spoilt = text.as_bytes().to_vec();
-            for _ in 0..=random.below(3) {
-                let at = random.below(spoilt.len());
-                let end = spoilt.len().min(at + random.below(4));
-                let piece = pieces[random.below(pieces.len())];
-                spoilt.splice(at..end, piece.bytes());
-            }
+            let spoilt = random.spoilt(text.as_bytes(), &pieces, 4);
             round_trip::check(&spoilt, Format::Vrml, NAME);
         }
     }

@@ -1,27 +1,11 @@
 //! Values of face sets, by hand and by law.
 
-use meshweft::files::{Document, Edit, MeshEntry};
-use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
+use meshweft::Limits;
+use meshweft::files::{Document, Edit};
 
 use super::follow::{all, assert_follow, assert_same, listed, values};
-use super::{BINDINGS, Random, SHARING, data, face_set, open, written};
-
-/// Random orders of all that may move in a face set.
-pub(super) fn orders(random: &mut Random, entry: &MeshEntry) -> (FaceOrder, Option<VertexOrder>) {
-    let records = entry.record_count();
-    let ends = entry.runs.iter().skip(1).map(|&end| end as usize);
-    let runs = entry.runs.iter().zip(ends.chain([records]));
-    let order = runs.flat_map(|(&start, end)| random.shuffled(start as usize, end));
-    let order = Permutation::new(order.collect()).unwrap();
-    let rotations = match entry.corners_turnable {
-        true => (0..records).map(|_| random.below(3) as u8).collect(),
-        false => Vec::new(),
-    };
-    let vertices = random.shuffled(0, entry.mesh.vertex_count());
-    let vertices = VertexOrder::from(Permutation::new(vertices).unwrap());
-    let faces = FaceOrder::new(order, rotations).unwrap();
-    (faces, entry.vertices_movable.then_some(vertices))
-}
+use super::{BINDINGS, SHARING, data, face_set, open, written};
+use crate::random::Random;
 
 /// Puts all face sets in random orders, and asserts that all values follow; how many attributes
 /// there are.
@@ -33,7 +17,7 @@ fn check_values(text: &str, seed: u64) -> usize {
         for _ in 0..2 {
             let entry = document.meshes()[mesh].clone();
             let before = all(&document, mesh);
-            let (faces, vertices) = orders(&mut random, &entry);
+            let (faces, vertices) = random.orders(&entry);
             document
                 .edit(Edit::Order {
                     mesh,
@@ -176,13 +160,7 @@ fn values_of_spoilt_files_are_refused_or_survive() {
     let mut random = Random(5);
     for text in [BINDINGS, SHARING] {
         for _ in 0..10_000 {
-            let mut spoilt = text.as_bytes().to_vec();
-            for _ in 0..=random.below(3) {
-                let at = random.below(spoilt.len());
-                let end = spoilt.len().min(at + random.below(3));
-                let piece = pieces[random.below(pieces.len())];
-                spoilt.splice(at..end, piece.iter().copied());
-            }
+            let spoilt = random.spoilt(text.as_bytes(), &pieces, 3);
             let (format, path) = (
                 meshweft::files::Format::Vrml,
                 std::path::Path::new(super::NAME),
@@ -190,7 +168,7 @@ fn values_of_spoilt_files_are_refused_or_survive() {
             let document = Document::from_bytes(spoilt, format, path, Limits::default());
             let Ok(mut document) = document else { continue };
             for mesh in 0..document.meshes().len() {
-                let (faces, vertices) = orders(&mut random, &document.meshes()[mesh].clone());
+                let (faces, vertices) = random.orders(&document.meshes()[mesh]);
                 document
                     .edit(Edit::Order {
                         mesh,

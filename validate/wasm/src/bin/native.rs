@@ -1,7 +1,7 @@
 //! Answers requests with the native build, for a comparison with wasm32.
 //!
 //! `native BITS INDEX_COUNT VERTEX_COUNT` reads from standard input the indices, each of 16 or 32
-//! bits with the low byte first, and behind them requests, each a line of text: `TARGET EFFORT STEPS
+//! bits with the low byte first, then requests, each a line of text: `TARGET EFFORT STEPS
 //! SEED FLAGS CACHE`. For each it orders the indices as they came and writes the status (32 bits),
 //! the misses in that cache (64 bits) and the indices in their new order.
 
@@ -15,19 +15,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     let numbers = std::env::args().skip(1).map(|text| text.parse::<usize>());
     let numbers = numbers.collect::<Result<Vec<_>, _>>()?;
     let [bits, index_count, vertex_count] = numbers[..] else {
-        return Err("use: native BITS INDEX_COUNT VERTEX_COUNT <REQUESTS".into());
+        return Err("usage: native BITS INDEX_COUNT VERTEX_COUNT <REQUESTS".into());
     };
     let mut input = Vec::new();
     io::stdin().read_to_end(&mut input)?;
     let (indices, requests) = input
         .split_at_checked(index_count * bits / 8)
-        .ok_or("there are fewer indices than announced")?;
+        .ok_or("the input ends before the last index")?;
     let requests = str::from_utf8(requests)?;
 
     match bits {
         16 => answer(&read(indices, u16::from_le_bytes), vertex_count, requests),
         32 => answer(&read(indices, u32::from_le_bytes), vertex_count, requests),
-        other => Err(format!("no index has {other} bits").into()),
+        other => Err(format!("indices have 16 or 32 bits, not {other}").into()),
     }
 }
 
@@ -44,7 +44,7 @@ where
     for line in requests.lines() {
         let words: Vec<_> = line.split(' ').collect();
         let [target, effort, steps, seed, flags, cache] = words[..] else {
-            return Err(format!("{line:?} is no request").into());
+            return Err(format!("{line:?} is not a request").into());
         };
         let request = Request {
             target,

@@ -5,11 +5,11 @@ mod found;
 mod means;
 mod printed;
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 
 use super::arguments::OfPaper;
 use super::figure::print;
-use super::meshes::LARGE;
+use super::meshes::{LARGE, none_found};
 use by_mesh::{fig_3, fig_6, fig_9};
 use found::Found;
 use means::{fig_7, fig_8, fig_10};
@@ -27,11 +27,7 @@ pub(super) fn run(arguments: &OfPaper) -> Result<()> {
         found.retain(|mesh| mesh.mesh.face_count() <= LARGE);
     }
     if found.is_empty() {
-        bail!(
-            "{}: none of the paper's meshes is here. Files are looked for by name, such as \
-             fandisk.off, bunny.ply or horse.obj, optionally followed by .gz, and in a folder `meshes`",
-            arguments.data.display()
-        );
+        return Err(none_found(&arguments.data));
     }
 
     print(

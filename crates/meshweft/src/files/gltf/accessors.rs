@@ -15,6 +15,8 @@ pub(super) struct Accessor {
     pub(super) pointer: String,
     /// The bytes of one element.
     pub(super) size: usize,
+    /// The bytes from one element to the next where nothing says another distance.
+    pub(super) tight_stride: usize,
     /// Its records; `None` where it has none and stands for zeros.
     pub(super) records: Option<StridedRecords>,
     pub(super) component: usize,
@@ -187,6 +189,7 @@ impl<'a> Accessors<'a> {
 
         let mut accessor = Accessor {
             size,
+            tight_stride: shape.columns * column,
             records: None,
             component,
             shape,
@@ -200,8 +203,7 @@ impl<'a> Accessors<'a> {
             pointer: object.pointer().to_owned(),
         };
         if let Some(view) = object.number("bufferView")? {
-            let tight_stride = shape.columns * column;
-            self.place(&mut accessor, &object, tight_stride, view)?;
+            self.place(&mut accessor, &object, view)?;
         }
         Ok(accessor)
     }
@@ -211,7 +213,6 @@ impl<'a> Accessors<'a> {
         &self,
         accessor: &mut Accessor,
         object: &Object,
-        tight_stride: usize,
         number: usize,
     ) -> Result<(), Problem> {
         let offset = object.number("byteOffset")?.unwrap_or(0);
@@ -238,7 +239,7 @@ impl<'a> Accessors<'a> {
         // Some exporters write a stride of 0 for "none".
         let stride = view.number("byteStride")?.filter(|&stride| stride != 0);
         accessor.is_strided = stride.is_some_and(|stride| stride != size);
-        let stride = stride.unwrap_or(tight_stride);
+        let stride = stride.unwrap_or(accessor.tight_stride);
         if stride < size {
             return Err(view.problem(format!(
                 "byteStride {stride} is less than the {size} bytes of an element of {}",

@@ -53,8 +53,16 @@ impl Additions {
         let path = path
             .split('/')
             .map(|part| part.replace("~1", "/").replace("~0", "~"));
+        let path: Vec<String> = path.collect();
+        let names: Vec<&str> = path.iter().map(String::as_str).collect();
+        if let ["buffers"] | ["buffers", "-", ..] | ["buffers", _, "uri" | "byteLength", ..] =
+            names[..]
+        {
+            let text = "what a buffer holds cannot be added as a value: add a mesh";
+            return Err(FileErrorKind::unsupported(text).at(place()));
+        }
         self.values.push(Addition {
-            path: path.collect(),
+            path,
             json: json.to_owned(),
         });
         Ok(())
@@ -147,8 +155,8 @@ fn add_to_array(
             new.extend(each_alone(&pointer, &parts)?);
             continue;
         }
-        let element = name.parse().ok().and_then(|i: usize| elements.get(i));
-        let Some(&element) = element else {
+        let number = name.parse().ok().filter(|i: &usize| i.to_string() == name);
+        let Some(&element) = number.and_then(|i| elements.get(i)) else {
             let count = elements.len();
             let text = format!("there are {count} elements here; - adds one after the last");
             return refused(&pointer, text);
@@ -291,6 +299,16 @@ mod tests {
                 "/a/1: there are 1 elements here; - adds one after the last",
             ),
             (&[("/a/x", "1")], "/a/x: there are 1 elements here"),
+            (&[("/a/00/y", "1")], "/a/00: there are 1 elements here"),
+            (&[("/a/+0/y", "1")], "/a/+0: there are 1 elements here"),
+            (
+                &[("/buffers/-", "{}")],
+                "/buffers/-: what a buffer holds cannot be added as a value",
+            ),
+            (
+                &[("/buffers/0/uri", "\"a\"")],
+                "/buffers/0/uri: what a buffer holds",
+            ),
             (&[("/a/0/x", "1")], "/a/0: nothing can be added to 1"),
             (&[("/a~0/x", "1")], "/a~0: nothing can be added to 0"),
             (&[("/c", "1"), ("/c", "2")], "/c: two values are added"),

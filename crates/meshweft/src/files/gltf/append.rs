@@ -75,6 +75,7 @@ impl GltfFile {
     fn look_at(&self, container: &Container) -> Result<(View, Vec<Note>), Problem> {
         let json = super::read_json(container, &self.options.limits)?;
         let root = Object::new(json.root(), String::new())?;
+        super::check_version(&root)?;
         super::look(&root, &self.buffers, &self.options)
     }
 }

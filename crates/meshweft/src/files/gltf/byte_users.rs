@@ -288,7 +288,7 @@ impl Building {
 
         // No element is longer than a MAT4 of doubles; an index has at most four bytes.
         let resolved = accessors.resolve(number, "");
-        let value_size = resolved.map_or(128, |accessor| accessor.size);
+        let value_size = resolved.map_or(128, |accessor| accessor.tight_stride);
         for name in ["indices", "values"] {
             let Some(part) = sparse.get(name) else {
                 continue;

@@ -51,7 +51,7 @@ impl Elements {
         let normalized = accessors.value(number).and_then(|a| a.get("normalized"));
         let sparse = accessor
             .is_sparse
-            .then(|| Box::new(accessors.sparse_to_read(number, accessor.count, accessor.size)));
+            .then(|| Box::new(accessors.sparse_to_read(number, &accessor)));
         Some(Self {
             accessor: number,
             component_type,

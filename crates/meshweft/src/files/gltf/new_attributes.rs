@@ -35,10 +35,12 @@ pub(super) fn accessor_of(attribute: &Attribute) -> Result<NewAccessor, FileErro
     if info.is_normalized {
         json["normalized"] = true.into();
     }
-    // Of positions the format asks for the bounds.
-    if let (Semantic::Position, Values::F32(values)) = (&info.semantic, &attribute.values) {
-        let (min, max) = bounds(values, info.components)?;
-        (json["min"], json["max"]) = (min, max);
+    if let Values::F32(values) = &attribute.values {
+        check_finite(values, info)?;
+        // Of positions the format asks for the bounds.
+        if info.semantic == Semantic::Position {
+            (json["min"], json["max"]) = bounds(values, info.components);
+        }
     }
 
     if stride == size {
@@ -121,20 +123,25 @@ fn check(info: &AttributeInfo) -> Result<u32, FileErrorKind> {
     Ok(component_type)
 }
 
+fn check_finite(values: &[f32], info: &AttributeInfo) -> Result<(), FileErrorKind> {
+    let Some(at) = values.iter().position(|value| !value.is_finite()) else {
+        return Ok(());
+    };
+    let text = format!(
+        "{} of vertex {} is not finite, which glTF does not allow",
+        info.semantic,
+        at / info.components
+    );
+    Err(FileErrorKind::unsupported(text))
+}
+
 /// The smallest and the largest of each component.
-fn bounds(values: &[f32], components: usize) -> Result<(NewJson, NewJson), FileErrorKind> {
-    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
-        let text = format!(
-            "the position of vertex {} is not finite, which glTF does not allow",
-            at / components
-        );
-        return Err(FileErrorKind::unsupported(text));
-    }
+fn bounds(values: &[f32], components: usize) -> (NewJson, NewJson) {
     let fold = |pick: fn(f32, f32) -> f32, start: f32| -> NewJson {
         let of = |component: usize| values.iter().skip(component).step_by(components);
         // As 64-bit numbers, whose text is exact.
         let each = (0..components).map(|c| f64::from(of(c).copied().fold(start, pick)));
         each.collect()
     };
-    Ok((fold(f32::min, f32::MAX), fold(f32::max, f32::MIN)))
+    (fold(f32::min, f32::MAX), fold(f32::max, f32::MIN))
 }

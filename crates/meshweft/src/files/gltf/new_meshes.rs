@@ -9,7 +9,7 @@ use super::json::Value;
 use super::movable::PrimitiveNumber;
 use super::new_attributes::accessor_of;
 use super::object::Object;
-use super::scene::{Drawn, Scenes};
+use super::scene::{Drawn, INSTANCES, Scenes};
 use crate::attribute::Attribute;
 use crate::faces::Faces;
 use crate::files::error::{FileErrorKind, Problem};
@@ -205,32 +205,40 @@ impl<'a> NewMeshes<'a> {
         self.next_accessor - 1
     }
 
-    /// Adds a node that draws the next mesh where `drawn` is.
-    fn draw(&mut self, name: &str, drawn: Option<Drawn>) {
-        let mut node = json!({ "mesh": self.next_mesh, "name": name });
-        let (node_number, additions) = (self.scenes.new_node(), &mut self.additions);
+    /// Adds a node that draws the next mesh where and as `drawn` is.
+    fn draw(&mut self, name: &str, drawn: Option<Drawn<'_>>) {
+        let mut members = vec![format!(
+            r#""mesh":{},"name":{}"#,
+            self.next_mesh,
+            NewJson::from(name)
+        )];
+        let node_number = self.scenes.new_node();
         match drawn {
-            // A child moves with the node that draws the source.
-            Some(Drawn {
-                node: parent,
-                skin: None,
-                ..
-            }) => {
-                let path = ["nodes", &parent.to_string(), "children", "-"];
-                additions.value(path, node_number.to_string());
-            }
             // A skinned mesh stands where its joints are, whatever is above it.
             Some(Drawn {
                 skin: Some(skin),
                 scene,
                 ..
             }) => {
-                node["skin"] = skin.into();
+                members.push(format!(r#""skin":{skin}"#));
                 self.scenes.add_root(node_number, Some(scene));
+            }
+            // A child moves with the node that draws the source.
+            Some(Drawn { node: parent, .. }) => {
+                let path = ["nodes", &parent.to_string(), "children", "-"];
+                self.additions.value(path, node_number.to_string());
             }
             None => self.scenes.add_root(node_number, None),
         }
-        additions.element("nodes", node.to_string());
+
+        if let Some(weights) = drawn.and_then(|drawn| drawn.weights) {
+            members.push(format!(r#""weights":{weights}"#));
+        }
+        if let Some(instances) = drawn.and_then(|drawn| drawn.instances) {
+            members.push(format!(r#""extensions":{{"{INSTANCES}":{instances}}}"#));
+        }
+        self.additions
+            .element("nodes", format!("{{{}}}", members.join(",")));
     }
 
     /// All that was added.

@@ -226,7 +226,7 @@ impl PrimitiveReader<'_> {
             self.note_obstacles(&accessor, obstacles);
             if accessor.is_sparse {
                 let moved = match self.primitive.has("indices") {
-                    true => self.accessors.sparse(number, accessor.count, accessor.size),
+                    true => self.accessors.sparse(number, &accessor),
                     false => Err("sparse data of faces without indices is not moved".into()),
                 };
                 match moved {

@@ -7,11 +7,18 @@ use crate::files::error::Problem;
 
 /// A node that draws a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Drawn {
+pub(super) struct Drawn<'a> {
     pub(super) node: usize,
     pub(super) skin: Option<usize>,
     pub(super) scene: usize,
+    /// What a node says of its mesh alone, and so not to its children: the JSON of the weights of morph
+    /// targets, and of the extension that draws it many times.
+    pub(super) weights: Option<&'a str>,
+    pub(super) instances: Option<&'a str>,
 }
+
+/// The extension of a node that draws its mesh many times.
+pub(super) const INSTANCES: &str = "EXT_mesh_gpu_instancing";
 
 /// The scenes of a file, and the nodes that are to be added to them.
 pub(super) struct Scenes<'a> {
@@ -69,7 +76,7 @@ impl<'a> Scenes<'a> {
     }
 
     /// The first node that draws a mesh: of those in the default scene, else of those in any.
-    pub(super) fn first_drawn(&self, mesh: u32) -> Option<Drawn> {
+    pub(super) fn first_drawn(&self, mesh: u32) -> Option<Drawn<'a>> {
         let field = |node: Value<'_>, name: &str| node.get(name).and_then(Value::whole);
         let nodes = self.nodes.iter().zip(&self.scene_of).enumerate();
         let drawn = nodes.filter_map(|(number, (&node, &scene))| {
@@ -78,6 +85,11 @@ impl<'a> Scenes<'a> {
                 node: number,
                 skin: field(node, "skin"),
                 scene: scene?,
+                weights: node.get("weights").map(Value::raw),
+                instances: node
+                    .get("extensions")
+                    .and_then(|extensions| extensions.get(INSTANCES))
+                    .map(Value::raw),
             })
         });
         drawn.min_by_key(|drawn| (drawn.scene != self.default, drawn.node))

@@ -3,7 +3,7 @@
 //! The numbers must rise, so a vertex order renumbers them, sorts them again, and moves their values
 //! alike. Both lists keep their place and length.
 
-use super::accessors::{Accessors, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT};
+use super::accessors::{Accessor, Accessors, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT};
 use super::buffers::Buffers;
 use super::json::Value;
 use super::patch;
@@ -20,33 +20,26 @@ pub(super) struct Sparse {
 }
 
 impl Accessors<'_> {
-    /// The sparse elements of accessor `number`, which has `count` elements of `size` bytes.
+    /// The sparse elements of accessor `number`.
     ///
     /// `Err` says why they cannot be moved.
-    pub(super) fn sparse(
-        &self,
-        number: usize,
-        count: usize,
-        size: usize,
-    ) -> Result<Sparse, String> {
-        self.find_sparse(number, count, size, true)
+    pub(super) fn sparse(&self, number: usize, accessor: &Accessor) -> Result<Sparse, String> {
+        self.find_sparse(number, accessor, true)
     }
 
     /// As [`sparse`](Self::sparse), to read them where they are; `Err` says why they cannot be read.
     pub(super) fn sparse_to_read(
         &self,
         number: usize,
-        count: usize,
-        size: usize,
+        accessor: &Accessor,
     ) -> Result<Sparse, String> {
-        self.find_sparse(number, count, size, false)
+        self.find_sparse(number, accessor, false)
     }
 
     fn find_sparse(
         &self,
         number: usize,
-        count: usize,
-        size: usize,
+        accessor: &Accessor,
         is_to_move: bool,
     ) -> Result<Sparse, String> {
         let incomplete = || "its sparse data is not complete".to_owned();
@@ -64,7 +57,7 @@ impl Accessors<'_> {
             _ => return Err(incomplete()),
         };
         let reach = u32::MAX >> (32 - 8 * width);
-        if is_to_move && count > reach as usize {
+        if is_to_move && accessor.count > reach as usize {
             return Err("the numbers of its sparse elements do not reach all vertices".into());
         }
 
@@ -76,37 +69,49 @@ impl Accessors<'_> {
             }
         }
 
-        let indices = self.part(indices, stored, width).ok_or_else(incomplete)?;
-        let values = self.part(values, stored, size).ok_or_else(incomplete)?;
+        let indices = self.part(indices, stored, [width, width]);
+        let values = self.part(values, stored, [accessor.size, accessor.tight_stride]);
+        let (indices, values) = indices.zip(values).ok_or_else(incomplete)?;
         let is_fixed = [indices, values].map(|part| self.fixed(part.storage).is_some());
         if is_to_move && is_fixed.contains(&true) {
             return Err(incomplete());
         }
         let numbers = patch::numbers(self.bytes(&indices), &indices);
         let is_sound = numbers.is_sorted_by(|a, b| a < b)
-            && numbers.last().is_none_or(|&last| (last as usize) < count);
+            && numbers
+                .last()
+                .is_none_or(|&last| (last as usize) < accessor.count);
         match is_sound {
             true => Ok(Sparse { indices, values }),
             false => Err("the numbers of its sparse elements do not rise, or reach too far".into()),
         }
     }
 
-    /// `count` tight elements of `size` bytes in the view that a part names, if they are all there.
-    fn part(&self, part: Value<'_>, count: usize, size: usize) -> Option<StridedRecords> {
+    /// `count` elements in the view that a part names, if they are all there: each of `size` bytes,
+    /// `stride` bytes after the one before. There may be room at the end of a matrix.
+    fn part(
+        &self,
+        part: Value<'_>,
+        count: usize,
+        [size, stride]: [usize; 2],
+    ) -> Option<StridedRecords> {
         let member = |value: Value<'_>, name: &str| value.get(name).and_then(Value::whole);
         let view = *self.views().get(member(part, "bufferView")?)?;
-        let stride = member(view, "byteStride").filter(|&stride| stride != 0);
-        if view.get("extensions").is_some() || stride.is_some_and(|stride| stride != size) {
+        let stated = member(view, "byteStride").filter(|&stride| stride != 0);
+        if view.get("extensions").is_some() || stated.is_some_and(|stated| stated != stride) {
             return None;
         }
         let offset = member(part, "byteOffset").unwrap_or(0);
-        let length = count.checked_mul(size)?;
+        let length = match count.checked_sub(1) {
+            Some(last) => last.checked_mul(stride)?.checked_add(size)?,
+            None => 0,
+        };
         let bytes = self.bytes_of_view(view, offset, Some(length))?;
         (bytes.size == length).then_some(StridedRecords {
             storage: bytes.storage,
             start: bytes.start,
             count,
-            stride: size,
+            stride: if count > 1 { stride } else { size },
             size,
         })
     }

@@ -288,7 +288,9 @@ impl<'a> ObjReader<'a> {
     fn check_attributes(&mut self) {
         for (keyword, seen) in ["vt", "vn"].into_iter().zip(self.values) {
             if seen.count > 0 && seen.count == self.vertices.len() && !seen.is_named {
-                let why = format!("as many {keyword} lines, named by no face, may belong to them");
+                let why = format!(
+                    "the {keyword} lines, one for each and not used by any face, may belong to them"
+                );
                 self.obstacle.get_or_insert((seen.first, why));
             }
         }

@@ -103,7 +103,7 @@ pub(super) fn columns(
 
     let colours = of_vertices.info(Domain::Vertex);
     let colours = colours.filter(|_| header.has_colours);
-    // Where colours are of several lengths, nobody can say where they end.
+    // Where colours have several lengths, there is no telling where they end.
     let is_known = colours.is_some() || !header.has_colours;
     if let Some(info) = colours {
         let colour = of_colours(info, at);

@@ -103,7 +103,7 @@ fn count(lines: &Lines<'_>, token: Range<usize>, what: &str) -> Result<usize, Pr
         let found = shown(&lines.text[token.clone()]);
         lines.malformed(
             token.start,
-            format!("the {what} is {found}, which counts nothing"),
+            format!("the {what} is {found}, which is not a count"),
         )
     })
 }

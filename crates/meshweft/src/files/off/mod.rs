@@ -8,11 +8,11 @@
 //!
 //! - Positions and normals have three components: the first three numbers (of `4OFF` too, whose
 //!   fourth is one to divide by), and zeros where there are fewer.
-//! - Colours are the numbers that `COFF` puts behind, and those behind the corners of faces, if all
+//! - Colours are the numbers that `COFF` puts last, and those after the corners of faces, if all
 //!   lines have three or all have four. If every one is a whole number from 0 to 255 they are bytes
 //!   that stand for fractions, else numbers as they are written. A single number is an entry in a
 //!   table that is not in the file, and is not listed.
-//! - Texture coordinates stand behind the colours, so they are listed if the colours are, or there
+//! - Texture coordinates come after the colours, so they are listed if the colours are, or there
 //!   are none.
 
 mod columns;

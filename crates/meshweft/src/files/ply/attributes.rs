@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::header::{Element, Encoding, PropertyKind, Scalar};
+use super::header::{Element, Encoding, PropertyKind};
 use super::number::PlyNumber;
 use super::rows::{Ascii, Binary, PlyRows, Row};
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
@@ -65,7 +65,7 @@ impl PlyAttributes<'_> {
         if let Some((list, PropertyKind::List { item, .. })) = list {
             let semantic = Semantic::TexCoord(0);
             columns.push(Column {
-                info: AttributeInfo::new(semantic, Domain::Corner, 2, component_type(item)),
+                info: AttributeInfo::new(semantic, Domain::Corner, 2, item),
                 properties: vec![list],
             });
         }
@@ -149,7 +149,7 @@ fn columns_of(element: &Element, domain: Domain, columns: &mut Vec<Column>) {
         if taken.insert(&property.name) {
             let semantic = Semantic::Other(property.name.clone());
             columns.push(Column {
-                info: AttributeInfo::new(semantic, domain, 1, component_type(scalar)),
+                info: AttributeInfo::new(semantic, domain, 1, scalar),
                 properties: vec![number],
             });
         }
@@ -170,7 +170,7 @@ fn column(element: &Element, semantic: Semantic, domain: Domain, names: &[&str])
     })
 }
 
-fn scalar(element: &Element, number: usize) -> Option<Scalar> {
+fn scalar(element: &Element, number: usize) -> Option<ComponentType> {
     match element.properties[number].kind {
         PropertyKind::Scalar(scalar) => Some(scalar),
         PropertyKind::List { .. } => None,
@@ -182,36 +182,23 @@ fn same_type(element: &Element, names: &[&str]) -> bool {
     let scalars = names
         .iter()
         .map(|name| scalar(element, element.scalar(name)?));
-    let scalars: Option<Vec<Scalar>> = scalars.collect();
+    let scalars: Option<Vec<ComponentType>> = scalars.collect();
     scalars.is_some_and(|scalars| scalars.windows(2).all(|pair| pair[0] == pair[1]))
 }
 
 /// The type that holds the numbers of all these types.
-fn joined(scalars: impl Iterator<Item = Scalar>) -> Option<ComponentType> {
+fn joined(scalars: impl Iterator<Item = ComponentType>) -> Option<ComponentType> {
     // A float of four bytes holds whole numbers of two.
     let floating = |scalar| match scalar {
-        Scalar::I32 | Scalar::U32 | Scalar::F64 => Scalar::F64,
-        _ => Scalar::F32,
+        ComponentType::I32 | ComponentType::U32 | ComponentType::F64 => ComponentType::F64,
+        _ => ComponentType::F32,
     };
     let join = |a, b| match (a, b) {
         (a, b) if a == b => a,
         (a, b) if floating(a) == floating(b) => floating(a),
-        _ => Scalar::F64,
+        _ => ComponentType::F64,
     };
-    scalars.reduce(join).map(component_type)
-}
-
-fn component_type(scalar: Scalar) -> ComponentType {
-    match scalar {
-        Scalar::I8 => ComponentType::I8,
-        Scalar::U8 => ComponentType::U8,
-        Scalar::I16 => ComponentType::I16,
-        Scalar::U16 => ComponentType::U16,
-        Scalar::I32 => ComponentType::I32,
-        Scalar::U32 => ComponentType::U32,
-        Scalar::F32 => ComponentType::F32,
-        Scalar::F64 => ComponentType::F64,
-    }
+    scalars.reduce(join)
 }
 
 fn is_unsigned(component: ComponentType) -> bool {

@@ -1,5 +1,6 @@
 //! The header of a PLY file: which elements there are, and what their rows hold.
 
+use crate::attribute::ComponentType;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::text::{is_blank, is_line_end, line_of, shown, whole_number};
 
@@ -11,21 +12,10 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
-/// The type of a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Scalar {
-    fn parse(word: &[u8]) -> Option<Self> {
+/// What PLY asks of its types.
+impl ComponentType {
+    /// The type that a header calls by this word.
+    fn of_ply(word: &[u8]) -> Option<Self> {
         Some(match word {
             b"char" | b"int8" => Self::I8,
             b"uchar" | b"uint8" => Self::U8,
@@ -37,17 +27,6 @@ impl Scalar {
             b"double" | b"float64" => Self::F64,
             _ => return None,
         })
-    }
-
-    /// Bytes it takes in a binary file.
-    #[inline]
-    pub(super) fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        }
     }
 
     pub(super) fn is_float(self) -> bool {
@@ -72,8 +51,11 @@ impl Scalar {
 /// One number, or a list with its length before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PropertyKind {
-    Scalar(Scalar),
-    List { count: Scalar, item: Scalar },
+    Scalar(ComponentType),
+    List {
+        count: ComponentType,
+        item: ComponentType,
+    },
 }
 
 /// One column of an element.
@@ -83,7 +65,7 @@ pub(super) struct Property {
     pub(super) kind: PropertyKind,
 }
 
-/// PlyRows of one kind.
+/// Rows of one kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Element {
     pub(super) name: String,
@@ -126,7 +108,7 @@ impl Element {
     }
 }
 
-/// All that stands before the rows.
+/// Everything before the rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PlyHeader {
     pub(super) encoding: Encoding,
@@ -254,7 +236,7 @@ fn element<'a>(words: &mut impl Iterator<Item = &'a [u8]>, line: usize) -> Resul
 fn property<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Result<Property, String> {
     let scalar = |word: Option<&[u8]>| {
         let word = word.unwrap_or_default();
-        Scalar::parse(word).ok_or_else(|| format!("{} is not a type of PLY", shown(word)))
+        ComponentType::of_ply(word).ok_or_else(|| format!("{} is not a type of PLY", shown(word)))
     };
     let first = words.next();
     let kind = match first {

@@ -1,7 +1,7 @@
 //! Stanford PLY, ascii and binary: rows of the `vertex` and `face` elements move.
 //!
-//! A row moves with everything in it, so properties that nobody here knows stay with their vertex
-//! or face. Three things may hang on an order without saying so, and keep what they hang on where
+//! A row moves with everything in it, so properties that are not known stay with their vertex or
+//! face. Three things may hang on an order without saying so, and keep what they hang on where
 //! it is:
 //!
 //! - another element may name vertices by number (edges, strips), so the vertices stay;

@@ -1,9 +1,9 @@
 //! Writing the corners of a PLY face.
 
 use super::attributes::PlyAttributes;
-use super::header::{Element, Encoding, PlyHeader, PropertyKind, Scalar};
+use super::header::{Element, Encoding, PlyHeader, PropertyKind};
 use super::rows::{Ascii, Binary, PlyRows, Row};
-use crate::attribute::{Attribute, AttributeInfo};
+use crate::attribute::{Attribute, AttributeInfo, ComponentType};
 use crate::files::error::Problem;
 use crate::files::rewrite::{Change, Notation, Rewrite, StoredMesh, vertex_from_zero};
 use crate::files::text::Tokens;
@@ -16,7 +16,7 @@ pub(super) struct PlyNotation {
     face: Option<(Element, usize)>,
     /// How many bytes of a binary row come before the first corner, and the type of corners, where
     /// that is the same in all rows.
-    first_corner: Option<(usize, Scalar)>,
+    first_corner: Option<(usize, ComponentType)>,
     has_texture: bool,
 }
 
@@ -52,7 +52,7 @@ impl PlyNotation {
         }
     }
 
-    fn find_first_corner(&self) -> Option<(usize, Scalar)> {
+    fn find_first_corner(&self) -> Option<(usize, ComponentType)> {
         let (element, list) = self.face.as_ref()?;
         if self.encoding == Encoding::Ascii {
             return None;
@@ -72,7 +72,7 @@ impl PlyNotation {
     }
 
     /// Where the corners of a row start, how many there are, and their type.
-    fn corners<R: PlyRows>(&self, mut rows: R) -> Option<(usize, usize, Scalar)> {
+    fn corners<R: PlyRows>(&self, mut rows: R) -> Option<(usize, usize, ComponentType)> {
         let (element, list) = self.face.as_ref()?;
         let row = Row { element, number: 0 };
         for (number, property) in element.properties.iter().enumerate() {
@@ -93,7 +93,7 @@ impl PlyNotation {
 
     fn write_binary<const BIG: bool>(
         record: &[u8],
-        at: (usize, usize, Scalar),
+        at: (usize, usize, ComponentType),
         change: Change<'_>,
         out: &mut Vec<u8>,
     ) {

@@ -1,7 +1,8 @@
 //! Reading the rows of a PLY file, ascii or binary, value by value.
 
-use super::header::{Element, Property, PropertyKind, Scalar};
+use super::header::{Element, Property, PropertyKind};
 use super::number::PlyNumber;
+use crate::attribute::ComponentType;
 use crate::files::error::{Fault, FileErrorKind};
 use crate::files::text::is_coordinate;
 use crate::files::text::{Tokens, is_blank, is_line_end, shown, whole_number};
@@ -37,17 +38,17 @@ pub(super) trait PlyRows {
     /// The end of the row's last value, after looking whether the row ends there.
     fn end_row(&mut self, row: &Row<'_>) -> Result<usize, Fault>;
     /// Reads past `count` values.
-    fn skip(&mut self, count: usize, scalar: Scalar, row: &Row<'_>) -> Result<(), Fault>;
+    fn skip(&mut self, count: usize, scalar: ComponentType, row: &Row<'_>) -> Result<(), Fault>;
     /// Reads past a coordinate, after looking whether it is one.
-    fn coordinate(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<(), Fault> {
+    fn coordinate(&mut self, scalar: ComponentType, row: &Row<'_>) -> Result<(), Fault> {
         self.skip(1, scalar, row)
     }
     /// A number, as another type that holds all numbers of its type.
-    fn number<T: PlyNumber>(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<T, Fault>;
+    fn number<T: PlyNumber>(&mut self, scalar: ComponentType, row: &Row<'_>) -> Result<T, Fault>;
     /// A whole number; the type is not a float.
-    fn whole(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault>;
+    fn whole(&mut self, scalar: ComponentType, row: &Row<'_>) -> Result<i64, Fault>;
     /// The number of entries of a list, which stands before them.
-    fn list_length(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<usize, Fault> {
+    fn list_length(&mut self, scalar: ComponentType, row: &Row<'_>) -> Result<usize, Fault> {
         let at = self.at();
         let length = self.whole(scalar, row)?;
         let fits = usize::try_from(length);
@@ -77,7 +78,7 @@ pub(super) trait PlyRows {
     }
 }
 
-/// PlyRows with numbers around one list of corners, of four bytes each, its length in one byte.
+/// Rows with numbers around one list of corners, of four bytes each, its length in one byte.
 pub(super) struct TriangleLayout {
     /// Bytes before the list.
     before: usize,
@@ -98,12 +99,12 @@ impl TriangleLayout {
         let (list, after) = rest.split_first()?;
         let is_signed = match list.kind {
             PropertyKind::List {
-                count: Scalar::U8 | Scalar::I8,
-                item: Scalar::I32,
+                count: ComponentType::U8 | ComponentType::I8,
+                item: ComponentType::I32,
             } => true,
             PropertyKind::List {
-                count: Scalar::U8 | Scalar::I8,
-                item: Scalar::U32,
+                count: ComponentType::U8 | ComponentType::I8,
+                item: ComponentType::U32,
             } => false,
             _ => return None,
         };
@@ -167,7 +168,7 @@ impl PlyRows for Ascii<'_> {
     }
 
     #[inline]
-    fn skip(&mut self, count: usize, _scalar: Scalar, row: &Row<'_>) -> Result<(), Fault> {
+    fn skip(&mut self, count: usize, _scalar: ComponentType, row: &Row<'_>) -> Result<(), Fault> {
         for _ in 0..count {
             self.token(row)?;
         }
@@ -175,7 +176,7 @@ impl PlyRows for Ascii<'_> {
     }
 
     #[inline]
-    fn coordinate(&mut self, _scalar: Scalar, row: &Row<'_>) -> Result<(), Fault> {
+    fn coordinate(&mut self, _scalar: ComponentType, row: &Row<'_>) -> Result<(), Fault> {
         let token = self.token(row)?;
         if is_coordinate(token) {
             return Ok(());
@@ -185,7 +186,7 @@ impl PlyRows for Ascii<'_> {
     }
 
     #[inline]
-    fn number<T: PlyNumber>(&mut self, _scalar: Scalar, row: &Row<'_>) -> Result<T, Fault> {
+    fn number<T: PlyNumber>(&mut self, _scalar: ComponentType, row: &Row<'_>) -> Result<T, Fault> {
         let token = self.token(row)?;
         T::of_token(token).ok_or_else(|| {
             let text = format!(
@@ -198,7 +199,7 @@ impl PlyRows for Ascii<'_> {
     }
 
     #[inline]
-    fn whole(&mut self, _scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault> {
+    fn whole(&mut self, _scalar: ComponentType, row: &Row<'_>) -> Result<i64, Fault> {
         let token = self.token(row)?;
         whole_number(token).ok_or_else(|| {
             let text = format!("{} is not a whole number", shown(token));
@@ -268,7 +269,7 @@ impl<const BIG: bool> PlyRows for Binary<'_, BIG> {
     }
 
     #[inline]
-    fn skip(&mut self, count: usize, scalar: Scalar, row: &Row<'_>) -> Result<(), Fault> {
+    fn skip(&mut self, count: usize, scalar: ComponentType, row: &Row<'_>) -> Result<(), Fault> {
         let left = self.source.len() - self.at;
         match count.checked_mul(scalar.size()) {
             Some(size) if size <= left => {
@@ -280,25 +281,27 @@ impl<const BIG: bool> PlyRows for Binary<'_, BIG> {
     }
 
     #[inline]
-    fn number<T: PlyNumber>(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<T, Fault> {
+    fn number<T: PlyNumber>(&mut self, scalar: ComponentType, row: &Row<'_>) -> Result<T, Fault> {
         Ok(match scalar {
-            Scalar::F32 => T::of_f32(number!(self, row, f32)),
-            Scalar::F64 => T::of_f64(number!(self, row, f64)),
+            ComponentType::F32 => T::of_f32(number!(self, row, f32)),
+            ComponentType::F64 => T::of_f64(number!(self, row, f64)),
             whole => T::of_whole(self.whole(whole, row)?),
         })
     }
 
     #[inline]
-    fn whole(&mut self, scalar: Scalar, row: &Row<'_>) -> Result<i64, Fault> {
+    fn whole(&mut self, scalar: ComponentType, row: &Row<'_>) -> Result<i64, Fault> {
         Ok(match scalar {
-            Scalar::I8 => number!(self, row, i8).into(),
-            Scalar::U8 => number!(self, row, u8).into(),
-            Scalar::I16 => number!(self, row, i16).into(),
-            Scalar::U16 => number!(self, row, u16).into(),
-            Scalar::I32 => number!(self, row, i32).into(),
-            Scalar::U32 => number!(self, row, u32).into(),
+            ComponentType::I8 => number!(self, row, i8).into(),
+            ComponentType::U8 => number!(self, row, u8).into(),
+            ComponentType::I16 => number!(self, row, i16).into(),
+            ComponentType::U16 => number!(self, row, u16).into(),
+            ComponentType::I32 => number!(self, row, i32).into(),
+            ComponentType::U32 => number!(self, row, u32).into(),
             // The header reader refuses floats where whole numbers are needed.
-            Scalar::F32 | Scalar::F64 => return Err(row.malformed(self.at, "a float as a count")),
+            ComponentType::F32 | ComponentType::F64 => {
+                return Err(row.malformed(self.at, "a float as a count"));
+            }
         })
     }
 

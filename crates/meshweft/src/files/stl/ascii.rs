@@ -176,7 +176,7 @@ impl AsciiStlReader<'_> {
         if found.eq_ignore_ascii_case(word) {
             return Ok(());
         }
-        let text = format!("{} where {} should stand", shown(found), expected());
+        let text = format!("{} where {} is expected", shown(found), expected());
         Err(self.problem(token.start, FileErrorKind::malformed(text)))
     }
 

@@ -245,7 +245,9 @@ impl Binder<'_> {
         };
 
         if list.count / numbers_each < count {
-            return stays(format!("its {what} goes by face and has less than faces"));
+            return stays(format!(
+                "its {what} goes by face and has fewer entries than there are faces"
+            ));
         }
         if corners.has_empty {
             return stays(format!(

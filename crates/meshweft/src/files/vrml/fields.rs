@@ -69,7 +69,7 @@ impl VrmlReader<'_> {
                 Ok(None)
             }
             other => {
-                let text = format!("{} where TRUE or FALSE should stand", shown(other));
+                let text = format!("{} where TRUE or FALSE is expected", shown(other));
                 Err(Fault::malformed(word.start, text))
             }
         }
@@ -113,7 +113,7 @@ impl VrmlReader<'_> {
                 Some(other) => {
                     let found = shown(&self.text[other.span()]);
                     let field = shown(&self.text[field]);
-                    let text = format!("{found} where a number of {field} should stand");
+                    let text = format!("{found} where a number of {field} is expected");
                     return Err(Fault::malformed(other.span().start, text));
                 }
                 None => {

@@ -160,7 +160,7 @@ impl<'a> VrmlReader<'a> {
     /// Notes that the face set, or a node that hangs on it, holds what is not understood.
     fn odd(&mut self, what: &str) {
         match self.frames.last_mut().map(|frame| &mut frame.kind) {
-            Some(FrameKind::FaceSet(set, _)) => set.obstacle(format!("{what} stands in it")),
+            Some(FrameKind::FaceSet(set, _)) => set.obstacle(format!("it contains {what}")),
             Some(FrameKind::Points(points)) => points.is_odd = true,
             _ => {}
         }

@@ -11,18 +11,21 @@ use crate::cache::MAX_CACHE_SIZE;
 /// same on every platform.
 #[derive(Debug, Clone)]
 pub(in crate::order) struct Costs {
+    /// `k1`: added for each push.
     push: i64,
+    /// `k2`: taken off for each face drawn.
     face: i64,
-    /// Taken off a vertex's cost for each push since it entered: `k3 / K`.
+    /// `k3 / K`: taken off for each push since the vertex entered.
     age: i64,
-    /// A push, less what the age that it adds takes off.
+    /// `k1 − k3 / K`: a push also makes the vertex older.
     aging_push: i64,
 }
 
-/// Weights are rounded to multiples of one over this.
+/// Weights are rounded to multiples of one over this. The common denominator is this times `K`.
 const DENOMINATOR: f64 = 1000.0;
 
 impl Costs {
+    /// The metric for a cache of `size` vertices; weights are clamped to ±1024.
     pub(in crate::order) fn new(k1: f64, k2: f64, k3: f64, size: u32) -> Self {
         #[expect(clippy::cast_possible_truncation, reason = "clamped to 2^20 before")]
         let fixed = |k: f64| (k.clamp(-1024.0, 1024.0) * DENOMINATOR).round() as i64;
@@ -49,6 +52,7 @@ impl Costs {
         Self::sum(self.push, self.face, self.age, pushes, faces, age)
     }
 
+    /// `k1 · pushes − k2 · faces − k3 · age`.
     #[inline]
     fn sum(k1: i64, k2: i64, k3: i64, pushes: u32, faces: u32, age: u32) -> i64 {
         let pushes = k1.wrapping_mul(i64::from(pushes));

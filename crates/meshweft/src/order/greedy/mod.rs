@@ -8,6 +8,6 @@ mod turn;
 
 pub(in crate::order) use costs::Costs;
 pub(in crate::order) use estimate::{gather_live, least_neighbours};
-pub(in crate::order) use live_faces::{HUB, LiveFaces};
+pub(in crate::order) use live_faces::{HUB, LiveFaces, LiveVertex};
 pub(in crate::order) use queue::{Entry, Queue};
 pub(in crate::order) use turn::{HITS_FIRST, Turn};

@@ -16,23 +16,25 @@ impl Turn {
     #[inline]
     pub(in crate::order) fn new<const KEEP_CORNERS: bool>(missing: [u32; 3]) -> Self {
         let misses = missing[0] + missing[1] + missing[2];
+        debug_assert!(missing.iter().all(|&missing| missing <= 1));
         if KEEP_CORNERS {
-            let (rotation, first) = (0, 0);
             return Self {
-                rotation,
+                rotation: 0,
                 misses,
-                first,
+                first: 0,
             };
         }
+
         let set = missing[0] | missing[1] << 1 | missing[2] << 2;
         Self {
             rotation: HITS_FIRST[set as usize & 7],
             misses,
-            // A hit changes nothing, and the misses come last.
+            // The misses come last, and a hit is not pushed.
             first: 3 - misses as usize,
         }
     }
 
+    /// The corners that may have to be pushed, in the order in which they are drawn.
     #[inline]
     pub(in crate::order) fn pushes(&self, corners: [u32; 3]) -> impl Iterator<Item = u32> {
         turned(corners, self.rotation).into_iter().skip(self.first)

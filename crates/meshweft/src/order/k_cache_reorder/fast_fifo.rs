@@ -5,32 +5,38 @@
 //! that is, drawing its faces to learn the cost and taking them back:
 //!
 //! - A vertex is in the cache if it entered within the last `K` pushes. So one time stamp a vertex
-//!   is the whole cache, and a tentative drawing is undone by restoring a few stamps.
+//!   is the whole cache, and a tentative drawing is undone by restoring a few stamps
+//!   ([`TentativeCache`]).
 //! - Each vertex knows how many white corners its live faces have, which bounds from below the
 //!   pushes that finishing it takes ([`least_neighbours`](crate::order::greedy::least_neighbours)).
-//!   A push or an eviction updates the counts of its neighbours. Only the candidate with the lowest
-//!   estimate is drawn tentatively; if it costs no more than estimated, no other can be cheaper.
+//!   A vertex that is pushed or evicted updates the counts of its neighbours. Only the candidate
+//!   with the lowest estimate is drawn tentatively; if it costs no more than estimated, no other
+//!   can be cheaper.
 //! - All costs are integers: a rounding difference would let platforms disagree.
 //!
 //! Two constant parameters choose the variant: `KEEP_CORNERS` forbids turning corners, `POLYGONS`
-//! draws the whole polygon of each face.
+//! draws the whole polygon of each face and implies the former.
+//!
+//! Read `draw_all` first, then `cheapest_candidate`; `push` has the bookkeeping of the cache.
 
 use std::hint::select_unpredictable;
 
 use super::task::Task;
+use super::tentative::{Overwritten, TentativeCache};
 use crate::index::index32;
 use crate::order::greedy::{Costs, Entry, HUB, LiveFaces, Queue, Turn};
 use crate::permutation::{FaceOrder, Permutation};
 
-/// Most candidates looked at; see [`candidate_count`].
+/// Most candidates of a step for any cache; see [`candidate_count`].
 const MAX_CANDIDATES: usize = 16;
 
-/// Most candidates drawn tentatively in a step; after that, the cheapest of these is taken. On a
-/// surface the first or second is chosen. On faces that are not a surface the estimate is poor, and
-/// this bounds the work.
+/// Most candidates drawn tentatively in a step; after that, the cheapest of these is taken.
+///
+/// On a surface the first or second is chosen. On faces that are not a surface the estimate is poor,
+/// and this bounds the work.
 pub(super) const MAX_TENTATIVE: u32 = 4;
 
-/// How many of the oldest live vertices in the cache are candidates for the focus.
+/// How many of the oldest live vertices in a cache of `size` vertices are candidates for the focus.
 ///
 /// On eight scanned and CAD meshes, in file order and shuffled, more candidates change the mean
 /// ACMR by less than .0005.
@@ -42,127 +48,149 @@ pub(super) fn candidate_count(size: u32) -> usize {
     }
 }
 
-/// Draws all faces.
+/// The order in which to draw all faces.
 pub(super) fn face_order(task: &Task<'_>, keep_corners: bool) -> FaceOrder {
-    let mut growth = FifoGrowth::new(task);
+    let mut traversal = FifoTraversal::new(task);
     match keep_corners {
-        true => growth.grow::<true, false>(task.first_focus),
-        false => growth.grow::<false, false>(task.first_focus),
+        true => traversal.draw_all::<true, false>(task.first_focus),
+        false => traversal.draw_all::<false, false>(task.first_focus),
     }
-    growth.order()
+    traversal.order()
 }
 
 /// As [`face_order`] with corners kept, but draws whole polygons; `polygons` says where the polygon
 /// of each face begins and ends.
 pub(super) fn polygon_order(task: &Task<'_>, polygons: &[[u32; 2]]) -> FaceOrder {
-    let mut growth = FifoGrowth::new(task);
-    growth.polygons = polygons;
-    growth.grow::<true, true>(task.first_focus);
-    growth.order()
+    let mut traversal = FifoTraversal::new(task);
+    traversal.polygons = polygons;
+    traversal.draw_all::<true, true>(task.first_focus);
+    traversal.order()
 }
 
-/// The drawn faces, which grow around one focus vertex after the other, and the cache.
-struct FifoGrowth<'a> {
+/// The greedy traversal: the faces that are drawn and the cache after them.
+struct FifoTraversal<'a> {
     live: LiveFaces<'a>,
     /// Where the polygon of each face begins and ends; empty if there are no polygons.
     polygons: &'a [[u32; 2]],
     costs: &'a Costs,
+
+    /// Of the cache, in vertices.
     size: u32,
-    candidates: usize,
-    /// Counts pushes; starts past the cache size, so that stamp 0 is not in the cache. Wraps.
+    /// The number of the next push. Starts past the cache size, so that stamp 0 is not in the cache.
+    /// It may wrap: ages are wrapping differences.
     clock: u32,
-    /// The vertex of each of the last pushes, by the low bits of the clock: tells which one leaves.
+    /// The vertex of each of the last pushes, by the low bits of its number: tells which one leaves.
     pushed: Vec<u32>,
+    /// The vertices in the cache by age.
     queue: Queue,
-    /// The candidates of a step; a field, so that it is not cleared each time.
-    oldest: [Entry; MAX_CANDIDATES + 1],
-    tentative: Tentative,
+
+    /// How many candidates a step has at most.
+    most_candidates: usize,
+    /// The candidates of a step, oldest first. A field, so that it is not cleared each time.
+    candidates: [Entry; MAX_CANDIDATES],
+    /// The cost of each candidate: estimated, or exact once it was drawn tentatively.
+    candidate_costs: [i64; MAX_CANDIDATES],
+    gathered: Gathered,
+    /// A buffer for tentative drawings, empty between them.
+    overwritten: Vec<Overwritten>,
+
     new_to_old: Vec<u32>,
     rotations: Vec<u8>,
 }
 
-/// The live faces of one vertex, and what drawing them tentatively overwrote.
-struct Tentative {
+/// The live faces of one vertex.
+struct Gathered {
+    /// Whose faces they are; `None` once one of them may be drawn.
     vertex: Option<u32>,
     /// Only the first `len` count.
     faces: Vec<u32>,
     len: usize,
-    /// Overwritten stamps: vertex, stamp.
-    undo: Vec<(u32, u32)>,
 }
 
-impl<'a> FifoGrowth<'a> {
+impl<'a> FifoTraversal<'a> {
+    /// Nothing is drawn, and the cache is empty.
     fn new(task: &'a Task<'_>) -> Self {
         let Task {
             faces, size, costs, ..
         } = task;
         let size = *size;
-        let ring = (size as usize + 1).next_power_of_two();
+        let ring = (size as usize).next_power_of_two();
 
         Self {
             live: LiveFaces::new(*faces),
             polygons: &[],
             costs,
             size,
-            candidates: candidate_count(size),
             clock: size + 1,
             // The entry past the last vertex is on no face: it leaves without being announced.
             pushed: vec![index32(faces.vertex_count()); ring],
             queue: Queue::new(size),
-            oldest: [(0, 0); MAX_CANDIDATES + 1],
-            tentative: Tentative {
+            most_candidates: candidate_count(size),
+            candidates: [(0, 0); MAX_CANDIDATES],
+            candidate_costs: [0; MAX_CANDIDATES],
+            gathered: Gathered {
                 vertex: None,
                 faces: vec![0; HUB as usize],
                 len: 0,
-                undo: Vec::with_capacity(2 * HUB as usize),
             },
+            overwritten: Vec::with_capacity(2 * HUB as usize),
             new_to_old: Vec::with_capacity(faces.len()),
             rotations: vec![0; faces.len()],
         }
     }
 
+    /// What was drawn, once that is all.
     fn order(self) -> FaceOrder {
         let permutation = Permutation::from_algorithm(self.new_to_old);
         FaceOrder::new(permutation, self.rotations).expect("one rotation below 3 a face")
     }
 
-    /// Finishes one vertex after the other.
-    fn grow<const KEEP_CORNERS: bool, const POLYGONS: bool>(&mut self, first_focus: Option<u32>) {
+    /// Finishes one vertex after the other, until all faces are drawn.
+    fn draw_all<const KEEP_CORNERS: bool, const POLYGONS: bool>(
+        &mut self,
+        first_focus: Option<u32>,
+    ) {
+        const { assert!(KEEP_CORNERS || !POLYGONS, "polygons keep their corners") };
+
         let mut next = first_focus;
         loop {
-            // Choose the focus.
             next = next.or_else(|| self.cheapest_candidate::<KEEP_CORNERS, POLYGONS>());
             let Some(focus) = next.or_else(|| self.live.after_dead_end()) else {
                 return;
             };
+            self.finish::<KEEP_CORNERS, POLYGONS>(focus);
+            next = None;
+        }
+    }
 
-            // Its live faces are at hand if it was the last one drawn tentatively.
-            if self.tentative.vertex != Some(focus) {
-                self.gather(focus);
-            }
-            self.tentative.vertex = None;
+    /// Draws the live faces of `focus`, or their polygons.
+    #[inline]
+    fn finish<const KEEP_CORNERS: bool, const POLYGONS: bool>(&mut self, focus: u32) {
+        // They are at hand if `focus` was the last vertex drawn tentatively.
+        if self.gathered.vertex != Some(focus) {
+            self.gather(focus);
+        }
+        self.gathered.vertex = None;
 
-            for i in 0..self.tentative.len {
-                let face = self.tentative.faces[i];
-                match POLYGONS {
-                    false => self.draw::<KEEP_CORNERS>(face),
-                    // Its other faces at this vertex come up again; `draw` skips them.
-                    true => {
-                        let [start, end] = self.polygons[face as usize];
-                        for face in start..end {
-                            self.draw::<KEEP_CORNERS>(face);
-                        }
+        for i in 0..self.gathered.len {
+            let face = self.gathered.faces[i];
+            match POLYGONS {
+                false => self.draw::<KEEP_CORNERS>(face),
+                // Its other faces at this vertex come up again; `draw` skips them.
+                true => {
+                    let [start, end] = self.polygons[face as usize];
+                    for face in start..end {
+                        self.draw::<KEEP_CORNERS>(face);
                     }
                 }
             }
-            next = None;
         }
     }
 
     #[inline]
     fn gather(&mut self, vertex: u32) {
-        self.tentative.len = self.live.gather(vertex, &mut self.tentative.faces);
-        self.tentative.vertex = Some(vertex);
+        self.gathered.len = self.live.gather(vertex, &mut self.gathered.faces);
+        self.gathered.vertex = Some(vertex);
     }
 
     /// The candidate of least cost, ties to the oldest; `None` if no live vertex is in the cache.
@@ -173,23 +201,55 @@ impl<'a> FifoGrowth<'a> {
         if self.queue.entries().is_empty() {
             return None;
         }
+        let (count, mut best) = self.estimate_candidates();
+        if count == 0 {
+            return None;
+        }
 
-        // Estimate the oldest live vertices. Each queue entry is written and kept only if it is a
-        // candidate: no branch for the processor to guess.
-        let mut cost = [0_i64; MAX_CANDIDATES + 1];
-        let oldest = &mut self.oldest;
-        let mut count = 0;
-        let mut scanned = 0;
-        let mut best = 0;
-        let mut least = i64::MAX;
+        // Replace the lowest cost by the exact one, until it was no estimate: then no candidate can
+        // be cheaper. `tried` is the bit set of the candidates that were drawn tentatively.
+        let mut tried = 0_u32;
+        loop {
+            let (focus, _) = self.candidates[best];
+            let is_tried = tried >> best & 1 != 0;
+            if is_tried || !self.is_worth_trying::<KEEP_CORNERS, POLYGONS>(focus) {
+                return Some(focus);
+            }
+
+            let exact = self.tentative_cost::<KEEP_CORNERS, POLYGONS>(focus);
+            if exact <= self.candidate_costs[best] {
+                return Some(focus);
+            }
+
+            // It costs more than estimated. After the last attempt only exact costs compete.
+            self.candidate_costs[best] = exact;
+            tried |= 1 << best;
+            let is_last = tried.count_ones() == MAX_TENTATIVE;
+            let rank = |i: usize| {
+                let is_out = is_last && tried >> i & 1 == 0;
+                (is_out, self.candidate_costs[i])
+            };
+            best = (0..count).min_by_key(|&i| rank(i)).unwrap_or(0);
+        }
+    }
+
+    /// Takes the oldest live vertices in the cache as candidates and estimates their costs, which
+    /// are never too high on a surface. Returns how many there are, and which one is the cheapest.
+    #[inline]
+    fn estimate_candidates(&mut self) -> (usize, usize) {
         let (vertices, clock) = (&self.live.vertices[..], self.clock);
+        let (mut scanned, mut count) = (0, 0);
+        let (mut best, mut least) = (0, i64::MAX);
+
+        // Each entry is written and kept only if it is a candidate: no branch for the processor to
+        // guess.
         for &entry in self.queue.entries() {
             let (candidate, entered) = entry;
             let vertex = &vertices[candidate as usize];
             let age = clock.wrapping_sub(vertex.entered);
             let estimate = self.costs.of(vertex.white_neighbours(), vertex.live, age);
-            oldest[count] = entry;
-            cost[count] = estimate;
+            self.candidates[count] = entry;
+            self.candidate_costs[count] = estimate;
 
             let is_candidate = (vertex.live != 0) & (vertex.entered == entered);
             let is_better = is_candidate & (estimate < least);
@@ -198,78 +258,43 @@ impl<'a> FifoGrowth<'a> {
 
             count += usize::from(is_candidate);
             scanned += 1;
-            if count == self.candidates {
+            if count == self.most_candidates {
                 break;
             }
         }
 
         // Entries that are out of date are not scanned again.
-        self.queue.replace_front(scanned, &oldest[..count]);
-        if count == 0 {
-            return None;
-        }
-
-        // Replace the lowest estimate by the exact cost until no candidate can be cheaper. `tried`
-        // is the bit set of the candidates whose cost is exact.
-        let mut tried = 0_u32;
-        loop {
-            let (focus, _) = self.oldest[best];
-            let vertex = &self.live.vertices[focus as usize];
-
-            // Without a push, or with one face left whose hits come first, nothing that is needed
-            // can be evicted: the estimate is the cost. (With polygons the estimate sees only the
-            // faces at this vertex, so it is never exact.)
-            let is_exact =
-                (!POLYGONS && vertex.white_corners == 0) || (!KEEP_CORNERS && vertex.live == 1);
-            if is_exact || tried >> best & 1 != 0 || vertex.live > HUB {
-                return Some(focus);
-            }
-
-            let exact = self.tentative_cost::<KEEP_CORNERS, POLYGONS>(focus);
-            if exact <= cost[best] {
-                return Some(focus);
-            }
-
-            // It costs more than estimated. After the last attempt only exact costs compete.
-            cost[best] = exact;
-            tried |= 1 << best;
-            let is_last = tried.count_ones() == MAX_TENTATIVE;
-            let rank = |i: usize| (is_last && tried >> i & 1 == 0, cost[i]);
-            best = (0..count).min_by_key(|&i| rank(i)).unwrap_or(0);
-        }
+        self.queue.replace_front(scanned, &self.candidates[..count]);
+        (count, best)
     }
 
-    /// The exact cost of `focus`: draws its live faces on the time stamps, then restores these.
+    /// Whether drawing `focus` tentatively can tell more than the estimate, and is not too long.
+    #[inline]
+    fn is_worth_trying<const KEEP_CORNERS: bool, const POLYGONS: bool>(&self, focus: u32) -> bool {
+        // Without a push, or with one face left whose hits come first, nothing that is needed can be
+        // evicted: the estimate is the cost. (With polygons it sees only the faces at this vertex,
+        // so it is never exact.)
+        let vertex = &self.live.vertices[focus as usize];
+        let takes_no_push = !POLYGONS && vertex.white_corners == 0;
+        let is_last_face = !KEEP_CORNERS && vertex.live == 1;
+        !takes_no_push && !is_last_face && vertex.live <= HUB
+    }
+
+    /// The exact cost of `focus`: draws its live faces tentatively.
     #[inline]
     fn tentative_cost<const KEEP_CORNERS: bool, const POLYGONS: bool>(
         &mut self,
         focus: u32,
     ) -> i64 {
         self.gather(focus);
+        let gathered = &self.gathered.faces[..self.gathered.len];
+        let live = self.live.vertices[focus as usize].live;
+        let mut cache =
+            TentativeCache::new(&mut self.live, self.size, self.clock, &mut self.overwritten);
 
-        // As the real drawing, without counts and announcements.
-        let (size, mut clock) = (self.size, self.clock);
-        let (vertices, undo) = (&mut self.live.vertices[..], &mut self.tentative.undo);
-        let mut draw = |face: u32| {
-            let corners = self.live.faces[face as usize];
-            let missing = corners.map(|corner| {
-                let entered = vertices[corner as usize].entered;
-                u32::from(clock.wrapping_sub(entered) > size)
-            });
-            for corner in Turn::new::<KEEP_CORNERS>(missing).pushes(corners) {
-                let entered = &mut vertices[corner as usize].entered;
-                if clock.wrapping_sub(*entered) > size {
-                    undo.push((corner, *entered));
-                    *entered = clock;
-                    clock = clock.wrapping_add(1);
-                }
-            }
-        };
-
-        let gathered = &self.tentative.faces[..self.tentative.len];
         if POLYGONS {
-            // The faces of a polygon at this vertex are gathered next to each other. After as many
-            // faces as a hub has, drawing stops: the cost so far is more than another's.
+            // The faces of a polygon at this vertex are gathered next to each other. `HUB` faces
+            // are drawn at most, which bounds the work: what they cost stands for the rest.
             let mut last = [u32::MAX; 2];
             let mut left = HUB;
             for &face in gathered {
@@ -277,25 +302,19 @@ impl<'a> FifoGrowth<'a> {
                 if std::mem::replace(&mut last, polygon) != polygon {
                     let [start, end] = polygon;
                     let taken = (end - start).min(left);
-                    (start..start + taken).for_each(&mut draw);
+                    (start..start + taken).for_each(|face| cache.draw::<KEEP_CORNERS>(face));
                     left -= taken;
                 }
             }
         } else {
             for &face in gathered {
-                draw(face);
+                cache.draw::<KEEP_CORNERS>(face);
             }
         }
 
-        // Read the age, then restore the stamps, the last one first: a vertex may be there twice.
-        let vertex = vertices[focus as usize];
-        let age = clock.wrapping_sub(vertex.entered);
-        while let Some((corner, entered)) = undo.pop() {
-            vertices[corner as usize].entered = entered;
-        }
-
-        let pushes = clock.wrapping_sub(self.clock);
-        self.costs.after_run(pushes, vertex.live, age)
+        let cost = self.costs.after_run(cache.pushes(), live, cache.age(focus));
+        cache.undo();
+        cost
     }
 
     /// Draws a face, unless it is drawn already: turns its corners so that hits come first, and
@@ -323,35 +342,40 @@ impl<'a> FifoGrowth<'a> {
         }
     }
 
+    /// Whether a vertex is not in the cache, finished or not.
     #[inline]
     fn is_white(&self, vertex: u32) -> bool {
         let entered = self.live.vertices[vertex as usize].entered;
         self.clock.wrapping_sub(entered) > self.size
     }
 
-    /// Pushes a white vertex, and evicts the vertex that was pushed `size` pushes ago, if that was
-    /// its last push.
+    /// Pushes a vertex that is not in the cache; the one pushed `size` pushes ago leaves.
     #[inline]
     fn push(&mut self, vertex: u32) {
+        let now = self.clock;
+        let size_ago = now.wrapping_sub(self.size);
         let mask = self.pushed.len() - 1;
-        let leaving = self.pushed[self.clock.wrapping_sub(self.size) as usize & mask];
-        self.pushed[self.clock as usize & mask] = vertex;
-        let entered = self.clock;
-        self.live.vertices[vertex as usize].entered = entered;
-        self.clock = self.clock.wrapping_add(1);
+        let leaving = self.pushed[size_ago as usize & mask];
 
-        if self.live.vertices[leaving as usize].live != 0 {
-            // Its stamp is too old by now. Without a stamp no entry of the queue matches it.
-            self.live.vertices[leaving as usize].entered = 0;
+        self.pushed[now as usize & mask] = vertex;
+        self.live.vertices[vertex as usize].entered = now;
+        self.clock = now.wrapping_add(1);
+
+        // An unfinished vertex that leaves tells its neighbours. Without its stamp, which is too old
+        // by now, no entry of the queue matches it.
+        let left = &mut self.live.vertices[leaving as usize];
+        if left.live != 0 {
+            debug_assert_eq!(left.entered, size_ago, "{leaving} entered once more");
+            left.entered = 0;
             self.live.announce_unfinished_exit(leaving);
         }
 
+        // A vertex pushed by its last face is black already, with no live face to announce it to.
         if self.live.vertices[vertex as usize].live == 0 {
-            // Pushed by its last face: black already, with no live face to announce it to.
             return;
         }
         let vertices = &self.live.vertices;
-        self.queue.push((vertex, entered), |(vertex, entered)| {
+        self.queue.push((vertex, now), |(vertex, entered)| {
             let vertex = &vertices[vertex as usize];
             vertex.live != 0 && vertex.entered == entered
         });

@@ -46,6 +46,7 @@ mod fast_fifo;
 #[cfg(test)]
 mod oracle;
 mod task;
+mod tentative;
 
 use std::fmt;
 

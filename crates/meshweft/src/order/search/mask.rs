@@ -1,13 +1,14 @@
-//! Sets of the last pushes, one bit each.
+//! Sets of the last pushes, one bit each: a `u64` or a `u128` for at most 64 or 128 of them.
 
-/// A set of numbers, each stored as its remainder modulo [`SPAN`](Self::SPAN).
+/// A set of numbers of which any two differ by less than [`SPAN`](Self::SPAN): each is stored as its
+/// remainder.
 pub(super) trait Mask: Copy + Default + Eq {
     /// How many consecutive numbers it tells apart.
     const SPAN: u32;
     fn contains(self, number: u32) -> bool;
     fn set_if(&mut self, condition: bool, number: u32);
     fn clear_if(&mut self, condition: bool, number: u32);
-    /// The set of distances of its numbers from `start`.
+    /// The set of the distances of its numbers from `start`, which none of them is before.
     fn rotated(self, start: u32) -> Self;
     fn count(self) -> u32;
     /// Removes the least number and returns it.

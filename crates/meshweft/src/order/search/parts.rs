@@ -16,9 +16,13 @@ use crate::parallel;
 use crate::permutation::{FaceOrder, Permutation};
 use crate::progress::{Budget, Progress};
 
-/// The fewest faces in a part. A part starts with a cold cache and transforms the vertices at its
-/// border once more than the whole mesh would: at this size that costs less than a hundredth.
+/// The fewest faces in a part. A part starts with a cold
+/// cache and transforms the vertices at its border once more than the whole mesh would: at this size
+/// that costs less than a hundredth.
 const PART: usize = 1 << 17;
+
+/// 2⁶⁴ over the golden ratio: its multiples, as seeds, have little in common.
+const GOLDEN_RATIO: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A search for an order, and the caller to report to.
 pub(in crate::order) struct Search<'a> {
@@ -32,11 +36,14 @@ pub(in crate::order) struct Search<'a> {
 
 impl Search<'_> {
     /// The order that the search finds, part by part; polygons that begin at `starts` stay whole.
+    ///
+    /// The same for any number of threads, unless the caller stops or hurries it.
     pub(in crate::order) fn face_order(
         &self,
         faces: Faces<'_>,
         starts: Option<&[u32]>,
     ) -> FaceOrder {
+        // Cut large meshes.
         let face_count = faces.len();
         let polygons = starts.map(polygon_of_each_face);
         let (order, ends) = match part_count(face_count) {
@@ -65,7 +72,7 @@ impl Search<'_> {
                     .as_ref()
                     .map_or(Vec::new(), |polygons| polygons_of(members, polygons)),
                 keep_corners: self.keep_corners || starts.is_some(),
-                seed: self.seed ^ (start as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15),
+                seed: self.seed ^ (start as u64).wrapping_mul(GOLDEN_RATIO),
                 settings: &settings,
                 steps: self.budget.share(start..end, face_count).steps(),
                 caller: &caller,
@@ -74,6 +81,7 @@ impl Search<'_> {
             part
         });
 
+        // Search, and put what was found in place of the parts.
         let ordered = parallel::map(parts.collect(), |part: Part<'_>| part.search());
         FaceOrder::from(order).then(&joined(ordered, face_count))
     }
@@ -98,10 +106,11 @@ fn joined(parts: Vec<Found>, face_count: usize) -> FaceOrder {
     let mut start = 0;
 
     for part in parts {
-        let kept = part.order.len() - part.left_over;
+        // Faces are numbered from 0 in each part.
+        let in_full_batches = part.order.len() - part.left_over;
         for (i, &face) in part.order.new_to_old().iter().enumerate() {
             let (face, rotation) = (face + start, part.order.rotation(i));
-            if i < kept {
+            if i < in_full_batches {
                 new_to_old.push(face);
                 rotations.push(rotation);
             } else {
@@ -141,7 +150,7 @@ struct Part<'a> {
     keep_corners: bool,
     seed: u64,
     settings: &'a Settings,
-    /// How many steps may look ahead.
+    /// How many rounds may look ahead.
     steps: u64,
     caller: &'a Caller<'a>,
 }
@@ -149,7 +158,7 @@ struct Part<'a> {
 /// The order of a part.
 struct Found {
     order: FaceOrder,
-    /// Trailing faces in an incomplete batch.
+    /// How many faces are last in the order because their batch is not full.
     left_over: usize,
 }
 
@@ -166,6 +175,7 @@ impl Part<'_> {
         }
     }
 
+    /// Draws the whole part.
     fn run<M: Mask, const CACHES: usize>(&self, limits: [CacheLimits; CACHES]) -> Found {
         let faces = Faces::of_checked(&self.faces, self.vertex_count);
         let mut state = State::<M, CACHES>::new(faces, limits);
@@ -176,10 +186,12 @@ impl Part<'_> {
 
         let state = Rollouts::new(state, self.settings, self.seed).run(self.steps, self.caller);
 
+        // With polygons a batch may end within one, which must not be torn.
         let left_over = match self.polygons.is_empty() {
             true => state.faces_in_batch(),
             false => 0,
         };
+
         let order = Permutation::from_algorithm(state.new_to_old);
         Found {
             order: FaceOrder::new(order, state.rotations).expect("one rotation below 3 a face"),

@@ -27,7 +27,8 @@ use crate::order::target::{Effort, Target};
 /// The largest cache that is modelled.
 pub(super) const MAX_SIZE: u32 = 128;
 
-/// The FIFO cache to order for where the least recently used vertex leaves first.
+/// The FIFO cache to order for where the least recently used vertex leaves first: 5/8 of its size,
+/// rounded down.
 pub(in crate::order) fn lru_as_fifo(size: u32) -> u32 {
     (size / 8 * 5 + size % 8 * 5 / 8).max(3)
 }
@@ -48,7 +49,7 @@ pub(super) fn preset(target: Target, effort: Effort) -> Settings {
     }
 }
 
-/// The value in 1024ths.
+/// The value in 1024ths, rounded towards 0.
 const fn fixed(value: f64) -> i64 {
     #[expect(clippy::cast_possible_truncation, reason = "constants of a few units")]
     {
@@ -56,7 +57,8 @@ const fn fixed(value: f64) -> i64 {
     }
 }
 
-/// How far to look ahead for one cache: continuations of `steps` vertices.
+/// How far to look ahead for one cache: continuations of `steps` vertices, each chosen among the
+/// oldest `candidates`. Effort `fast` has one in a round: it is greedy and does not look ahead.
 fn horizon(effort: Effort, steps: u32, candidates: u32) -> Horizon {
     let (runs, commit) = match effort {
         Effort::Fast => (1, 1),
@@ -74,10 +76,10 @@ fn horizon(effort: Effort, steps: u32, candidates: u32) -> Horizon {
     }
 }
 
-/// Windows that are not looked at: exits from windows are counted with two caches only.
+/// Stand for windows with one cache: their exits are counted with two caches only.
 const NO_WINDOWS: [u32; WINDOWS] = [32, 64, 128];
 
-/// One FIFO cache.
+/// One FIFO cache of `size` vertices.
 fn fifo(size: u32, effort: Effort) -> Settings {
     let size = size.clamp(3, MAX_SIZE);
     let is_small = size < 24;
@@ -126,7 +128,7 @@ fn fifo(size: u32, effort: Effort) -> Settings {
 }
 
 /// As [`fifo`], but age does not count, and the window is longer than the cache: a vertex may stay
-/// while others come and go.
+/// while others come and go. So the cache is at most half as long as the longest window.
 fn controllable(size: u32, effort: Effort) -> Settings {
     let size = size.clamp(3, MAX_SIZE / 2);
     Settings {

@@ -52,7 +52,7 @@ pub(super) struct Score {
 /// How far and how often to look ahead.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Horizon {
-    /// Continuations in each round.
+    /// Continuations in each round; 1: greedy.
     pub(super) runs: usize,
     /// Vertices finished in each continuation.
     pub(super) steps: usize,
@@ -62,8 +62,9 @@ pub(super) struct Horizon {
     pub(super) candidates: u32,
     /// Span of the noise on a candidate's cost, in 1024ths of a push.
     pub(super) noise: i64,
-    /// Abandon a continuation that trails the best by more than this, once past `patience` steps.
+    /// A continuation is given up if its score is worse than the best one's by more than this, in
+    /// 1024ths of an eviction.
     pub(super) margin: i64,
-    /// Steps before a continuation may be given up.
+    /// The last step of a continuation, from 0, in which it is not given up yet.
     pub(super) patience: usize,
 }

@@ -2,8 +2,10 @@
 //!
 //! An *attempt* is what is drawn with `UNDO` between [`State::begin`] and [`State::undo`] or
 //! [`State::keep`]. It saves each vertex before first changing it; taking it back restores these
-//! vertices, the caches and a few numbers, whatever the caches did. Candidates are a bit set of the
-//! last pushes, so the oldest are found without touching the others.
+//! vertices, the caches and a few numbers, whatever the caches did.
+//!
+//! *Candidates* for the next focus are the unfinished vertices of the last pushes, as a bit set of
+//! the numbers of these pushes: the oldest are found without touching the others.
 //!
 //! Read `caches` for what is modelled, `drawing` for what a face changes. `oracle` compares all
 //! counts with plain recounts.
@@ -33,14 +35,14 @@ pub(super) const WINDOWS: usize = 3;
 struct SearchVertex<const CACHES: usize> {
     /// The number of its last push into each cache; 0 before the first.
     entered: [u32; CACHES],
-    /// Start of its row of faces; the next vertex's start ends it.
-    row: u32,
+    /// Start of its row in [`State::rows`]; the next vertex's start ends it.
+    row_start: u32,
     /// Its corners in faces that are not drawn yet. 0: black.
     live: u32,
     /// How many of the other corners of its live faces are missing from each cache: 16 bits a
     /// cache, the first one in the low bits. At most 2 · [`HUB`], so no count runs into the next; a
     /// hub's may, and are not used.
-    missing: u32,
+    missing_corners: u32,
     /// The attempt that last changed it: it is saved already if that is the current one.
     attempt: u32,
 }
@@ -49,31 +51,32 @@ impl<const CACHES: usize> SearchVertex<CACHES> {
     /// The fewest neighbours that can be missing from a cache; see [`least_neighbours`].
     #[inline]
     fn missing_neighbours(&self, cache: usize) -> u32 {
-        least_neighbours(self.missing >> (16 * cache) & 0xffff, self.live)
+        least_neighbours(self.missing_corners >> (16 * cache) & 0xffff, self.live)
     }
 }
 
 /// The traversal, with one cache or two.
 pub(super) struct State<'a, M, const CACHES: usize> {
     faces: &'a [[u32; 3]],
-    /// One more than there are, so that each row has an end.
+    /// One more than there are, so that each row has an end. That one is on no face.
     vertices: Vec<SearchVertex<CACHES>>,
-    /// Rows of faces, including drawn ones, each with its other two corners.
+    /// The faces of each vertex, including drawn ones, each with its other two corners.
     rows: Vec<[u32; 3]>,
     drawn: Vec<bool>,
     pub(super) caches: [Cache; CACHES],
-    /// Those of the last `window` pushes into the first cache whose vertices are unfinished: the
-    /// candidates.
-    recent: M,
+    /// The candidates: those of the last `window` pushes into the first cache whose vertices are
+    /// unfinished.
+    candidate_pushes: M,
     /// How many of the last pushes can be candidates; at most `M::SPAN`.
     pub(super) window: u32,
     /// Longer windows whose exits are counted, in pushes into the first cache.
     pub(super) windows: [u32; WINDOWS],
-    /// Vertices that left each of them unfinished.
+    /// How many vertices left each of them unfinished.
     pub(super) window_exits: [u32; WINDOWS],
     pub(super) keep_corners: bool,
     /// Where the polygon of each face begins and ends; empty if there are no polygons.
     pub(super) polygons: &'a [[u32; 2]],
+    /// A buffer for the live faces of a focus.
     gathered: Vec<u32>,
     /// The number of the current attempt.
     attempt: u32,
@@ -81,19 +84,20 @@ pub(super) struct State<'a, M, const CACHES: usize> {
     overwritten: Vec<(u32, SearchVertex<CACHES>)>,
     pub(super) new_to_old: Vec<u32>,
     pub(super) rotations: Vec<u8>,
-    /// Vertices that were candidates and left the window, or a controllable cache, unfinished.
-    pub(super) left: Vec<u32>,
+    /// Vertices that were candidates and left the window, or a controllable cache, unfinished: where
+    /// to go on when no candidate is left.
+    pub(super) dead_ends: Vec<u32>,
 }
 
 /// What undo restores besides vertices.
 pub(super) struct Saved<M, const CACHES: usize> {
     caches: [Cache; CACHES],
-    recent: M,
+    candidate_pushes: M,
     window_exits: [u32; WINDOWS],
     /// How many faces were drawn.
     pub(super) drawn: usize,
-    /// How many entries `left` had.
-    left: usize,
+    /// How many dead ends there were.
+    dead_ends: usize,
 }
 
 /// What is known of a candidate for the next focus.
@@ -105,46 +109,55 @@ pub(super) struct Candidate {
     pub(super) age: u32,
     /// Whether it is in the first cache.
     pub(super) is_inside: bool,
-    /// The fewest of its neighbours that can be missing from the first cache; the fewest of its
+    /// How many vertices are missing, at least: of its neighbours from the first cache, of its
     /// neighbours and itself from the second.
     pub(super) missing: [u32; 2],
 }
 
 impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
     /// Nothing is drawn, the caches are empty, and there are no candidates.
+    ///
+    /// Corners may be turned, and there are no polygons: set the fields for anything else.
     pub(super) fn new(faces: Faces<'a>, limits: [CacheLimits; CACHES]) -> Self {
         // Each cache has 16 bits of `missing`, enough for two corners a face of all but hubs, and
         // each window must fit in the ring.
         const { assert!(CACHES <= 2 && 2 * HUB < 1 << 16 && M::SPAN as usize <= caches::RING) };
         let (faces, vertex_count) = (faces.as_slice(), faces.vertex_count());
 
-        // Live counts, and from them where each row ends.
+        // Count the live faces of each vertex.
         let unused = SearchVertex {
             entered: [0; CACHES],
-            row: 0,
+            row_start: 0,
             live: 0,
-            missing: 0,
+            missing_corners: 0,
             attempt: 0,
         };
         let mut vertices = vec![unused; vertex_count + 1];
         for &corner in faces.as_flattened() {
             vertices[corner as usize].live += 1;
         }
-        let everywhere: u32 = (0..CACHES).map(one_in).sum();
+
+        // From the counts follows where each row ends. All corners are missing at first, two others
+        // in each face.
+        let one_in_each: u32 = (0..CACHES).map(one_in).sum();
         let mut end = 0;
         for vertex in &mut vertices {
             end += vertex.live;
-            vertex.row = end;
-            vertex.missing = vertex.live.wrapping_mul(2 * everywhere);
+            vertex.row_start = end;
+            vertex.missing_corners = vertex.live.wrapping_mul(2 * one_in_each);
         }
 
-        // Filling moves each `row` back to the start of its row. Kept with the vertex, it costs no
-        // second cache line.
+        // Fill the rows from behind, which moves each `row_start` from the end to the start.
         let mut entries = vec![[0; 3]; faces.len() * 3];
         let numbered = (0..index32(faces.len())).zip(faces).rev();
         let items = numbered
             .map(|(face, &[a, b, c])| [(c, [face, a, b]), (b, [face, c, a]), (a, [face, b, c])]);
-        rows::place_backwards(&mut vertices, |vertex| &mut vertex.row, items, &mut entries);
+        rows::place_backwards(
+            &mut vertices,
+            |vertex| &mut vertex.row_start,
+            items,
+            &mut entries,
+        );
 
         Self {
             faces,
@@ -152,7 +165,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
             rows: entries,
             drawn: vec![false; faces.len()],
             caches: limits.map(|limits| Cache::new(limits, index32(vertex_count))),
-            recent: M::default(),
+            candidate_pushes: M::default(),
             window: limits[0].size,
             windows: [1; WINDOWS],
             window_exits: [0; WINDOWS],
@@ -163,7 +176,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
             overwritten: Vec::new(),
             new_to_old: Vec::with_capacity(faces.len()),
             rotations: Vec::with_capacity(faces.len()),
-            left: Vec::new(),
+            dead_ends: Vec::new(),
         }
     }
 
@@ -180,10 +193,11 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         Some(from + index32(skipped))
     }
 
+    /// Where the faces of `vertex` are in `rows`.
     #[inline]
     fn row(&self, vertex: u32) -> Range<usize> {
         let v = vertex as usize;
-        self.vertices[v].row as usize..self.vertices[v + 1].row as usize
+        self.vertices[v].row_start as usize..self.vertices[v + 1].row_start as usize
     }
 
     #[inline]
@@ -191,18 +205,20 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.vertices[vertex as usize].entered[cache] < self.caches[cache].first
     }
 
-    /// How many faces are in the last batch; 0 if no cache limits the faces of a batch.
+    /// How many faces are in the batch that is not full yet, the longer one if both caches have
+    /// batches; 0 if none has.
     pub(super) fn faces_in_batch(&self) -> usize {
-        let ends = |cache: &&Cache| {
+        let has_batches = |cache: &&Cache| {
             let limits = cache.limits;
             limits.batch_faces != u32::MAX || limits.batch_vertices != u32::MAX
         };
-        let batches = self.caches.iter().filter(ends);
-        batches.map(|cache| cache.faces as usize).max().unwrap_or(0)
+        let batches = self.caches.iter().filter(has_batches);
+        let faces = batches.map(|cache| cache.faces_in_batch as usize);
+        faces.max().unwrap_or(0)
     }
 
     pub(super) fn has_candidates(&self) -> bool {
-        self.recent != M::default()
+        self.candidate_pushes != M::default()
     }
 
     /// Counts exits from 0 again.
@@ -213,20 +229,25 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.window_exits = [0; WINDOWS];
     }
 
-    /// What [`undo`](Self::undo) needs to come back to this state.
+    /// What [`undo`](Self::undo) needs to come back to this state, as often as it is asked to.
     pub(super) fn save(&self) -> Saved<M, CACHES> {
         Saved {
             caches: self.caches.clone(),
-            recent: self.recent,
+            candidate_pushes: self.candidate_pushes,
             window_exits: self.window_exits,
             drawn: self.new_to_old.len(),
-            left: self.left.len(),
+            dead_ends: self.dead_ends.len(),
         }
     }
 
     /// Starts an attempt: what is drawn with `UNDO` from now on can be taken back.
     pub(super) fn begin(&mut self) {
+        debug_assert!(
+            self.overwritten.is_empty(),
+            "the last attempt has not ended"
+        );
         if self.attempt == u32::MAX {
+            // Numbers start again: no vertex may have one that comes up once more.
             self.vertices.iter_mut().for_each(|v| v.attempt = 0);
             self.attempt = 0;
         }
@@ -238,14 +259,16 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         for (vertex, before) in self.overwritten.drain(..) {
             self.vertices[vertex as usize] = before;
         }
+
         for &face in &self.new_to_old[saved.drawn..] {
             self.drawn[face as usize] = false;
         }
         self.new_to_old.truncate(saved.drawn);
         self.rotations.truncate(saved.drawn);
-        self.left.truncate(saved.left);
+        self.dead_ends.truncate(saved.dead_ends);
+
         self.caches.clone_from(&saved.caches);
-        self.recent = saved.recent;
+        self.candidate_pushes = saved.candidate_pushes;
         self.window_exits = saved.window_exits;
     }
 
@@ -261,7 +284,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
 
     /// The vertex, to be changed; with `UNDO` it is saved first, once an attempt.
     #[inline]
-    fn change<const UNDO: bool>(&mut self, vertex: u32) -> &mut SearchVertex<CACHES> {
+    fn vertex_mut<const UNDO: bool>(&mut self, vertex: u32) -> &mut SearchVertex<CACHES> {
         let entry = &mut self.vertices[vertex as usize];
         if UNDO && entry.attempt != self.attempt {
             self.overwritten.push((vertex, *entry));
@@ -274,27 +297,28 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
     /// many.
     #[inline]
     pub(super) fn candidates(&self, most: u32, mut visit: impl FnMut(usize, Candidate)) -> u32 {
+        // Bit 0 of `places` is the oldest push of the window.
         let cache = &self.caches[0];
         let start = cache.pushes - self.window;
-        let mut recent = self.recent.rotated(start);
-        let count = recent.count().min(most);
+        let mut places = self.candidate_pushes.rotated(start);
+        let count = places.count().min(most);
 
         for i in 0..count as usize {
-            let entered = start + recent.take_lowest();
-            let vertex = cache.pushed(entered);
-            let known = &self.vertices[vertex as usize];
+            let entered = start + places.take_lowest();
+            let number = cache.pushed(entered);
+            let vertex = &self.vertices[number as usize];
 
             // The second cache may miss the vertex itself; for the first one `is_inside` says that.
-            let mut missing = [known.missing_neighbours(0), 0];
+            let mut missing = [vertex.missing_neighbours(0), 0];
             if CACHES > 1 {
-                let last = CACHES - 1;
-                let itself = u32::from(known.entered[last] < self.caches[last].first);
-                missing[1] = known.missing_neighbours(1) + itself;
+                let second = CACHES - 1;
+                let itself = u32::from(vertex.entered[second] < self.caches[second].first);
+                missing[1] = vertex.missing_neighbours(second) + itself;
             }
 
             let candidate = Candidate {
-                vertex,
-                live: known.live,
+                vertex: number,
+                live: vertex.live,
                 age: cache.pushes - entered,
                 is_inside: entered >= cache.first,
                 missing,
@@ -305,7 +329,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
     }
 }
 
-/// 1 in the 16 bits of a cache in [`SearchVertex::missing`].
+/// 1 in the 16 bits of a cache in [`SearchVertex::missing_corners`].
 #[inline]
 const fn one_in(cache: usize) -> u32 {
     1 << (16 * cache)

@@ -1,8 +1,8 @@
 //! The caches that a traversal models.
 //!
 //! Pushes into a cache are numbered, and a vertex knows the number of its last push. It is in the
-//! cache if that is [`Cache::first`] or later: evicting the oldest or ending a batch only raises
-//! `first`. A controllable cache instead sets the number of an evicted vertex to 0.
+//! cache if that is [`Cache::first`] or later: to evict the oldest or to end a batch, it is enough to
+//! raise `first`. A controllable cache instead sets the number of an evicted vertex to 0.
 
 use crate::index::index32;
 
@@ -25,6 +25,7 @@ pub(in crate::order::search) struct CacheLimits {
 }
 
 impl CacheLimits {
+    /// First in, first out, without batches.
     pub(in crate::order::search) fn fifo(size: u32) -> Self {
         Self {
             size,
@@ -44,10 +45,8 @@ pub(in crate::order::search) struct Cache {
     pub(super) pushes: u32,
     /// A vertex whose last push has a lower number is not in the cache.
     pub(super) first: u32,
-    /// Faces in the current batch.
-    pub(super) faces: u32,
-    /// Vertices pushed in the current batch.
-    pub(super) vertices: u32,
+    pub(super) faces_in_batch: u32,
+    pub(super) pushes_in_batch: u32,
     /// Controllable: how many vertices are in it; those that the face being drawn finishes leave
     /// after it.
     pub(super) held: u32,
@@ -64,19 +63,19 @@ impl Cache {
             limits,
             pushes: index32(RING),
             first: index32(RING),
-            faces: 0,
-            vertices: 0,
+            faces_in_batch: 0,
+            pushes_in_batch: 0,
             held: 0,
             exits: 0,
             ring: [nobody; RING],
         }
     }
 
-    /// Whether a face with `misses` misses does not fit in the batch.
+    /// Whether another face, with `misses` misses, fits in the batch.
     #[inline]
-    pub(super) fn is_full(&self, misses: u32) -> bool {
-        self.faces == self.limits.batch_faces
-            || self.vertices.saturating_add(misses) > self.limits.batch_vertices
+    pub(super) fn has_room(&self, misses: u32) -> bool {
+        self.faces_in_batch != self.limits.batch_faces
+            && self.pushes_in_batch.saturating_add(misses) <= self.limits.batch_vertices
     }
 
     /// The vertex of a push, one of the last [`RING`].

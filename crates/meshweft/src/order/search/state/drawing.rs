@@ -9,7 +9,7 @@ use crate::faces::turned;
 use crate::order::greedy::{HITS_FIRST, HUB, gather_live};
 
 impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
-    /// Draws the live faces of `focus`, up to the end of the first cache's batch.
+    /// Draws the live faces of `focus`, or their polygons, up to the end of the first cache's batch.
     #[inline]
     pub(in crate::order::search) fn draw<const UNDO: bool>(&mut self, focus: u32) {
         let mut gathered = std::mem::take(&mut self.gathered);
@@ -28,7 +28,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
                     (start..end).for_each(|face| self.draw_face::<UNDO>(face));
                 }
             }
-            if self.caches[0].is_full(0) {
+            if !self.caches[0].has_room(0) {
                 break;
             }
         }
@@ -40,40 +40,8 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
     #[inline]
     fn draw_face<const UNDO: bool>(&mut self, face: u32) {
         let corners = self.faces[face as usize];
-
-        // Which corners each cache misses, after a new batch if the face does not fit in the
-        // current one. `absent` is the same by corner, in the 16-bit counts of
-        // `SearchVertex::missing`.
-        let mut missing = [[false; 3]; CACHES];
-        let mut absent = [0_u32; 3];
-        for (cache, missing) in missing.iter_mut().enumerate() {
-            *missing = corners.map(|corner| self.is_missing(corner, cache));
-            let count = missing.map(u32::from).iter().sum();
-            if self.caches[cache].is_full(count) {
-                self.end_batch::<UNDO>(cache);
-                *missing = [true; 3];
-            }
-            for (absent, &missing) in absent.iter_mut().zip(&*missing) {
-                *absent += u32::from(missing) << (16 * cache);
-            }
-            self.caches[cache].faces += 1;
-        }
-
-        // Take the face off the counts of its corners. It is marked first, so that its own pushes
-        // are not announced to it.
-        self.drawn[face as usize] = true;
-        let mut finished = 0_u32;
-        for i in 0..3 {
-            let others = absent[(i + 1) % 3] + absent[(i + 2) % 3];
-            let vertex = self.change::<UNDO>(corners[i]);
-            vertex.live -= 1;
-            vertex.missing = vertex.missing.wrapping_sub(others);
-            let (entered, is_finished) = (vertex.entered[0], vertex.live == 0);
-            if is_finished {
-                finished += 1;
-                self.forget(entered);
-            }
-        }
+        let missing = self.place_in_batches::<UNDO>(corners);
+        let finished = self.take_off::<UNDO>(face, missing);
 
         // Turn its corners so that the hits of the first cache come first.
         let set = missing[0].map(usize::from);
@@ -84,6 +52,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         self.rotations.push(rotation);
         self.new_to_old.push(face);
 
+        // Push its misses.
         let turned = turned(corners, rotation);
         for cache in 0..CACHES {
             // A face may name a vertex twice, and with kept corners an earlier push may have
@@ -101,47 +70,98 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         }
     }
 
-    /// Removes the vertex of push `entered` from the candidates, if it is one.
+    /// Adds a face to the batch of each cache, or to a new one if it does not fit; returns which of
+    /// its corners each cache then misses.
     #[inline]
-    fn forget(&mut self, entered: u32) {
-        let is_recent = self.caches[0].pushes - entered <= self.window;
-        self.recent.clear_if(is_recent, entered);
+    fn place_in_batches<const UNDO: bool>(&mut self, corners: [u32; 3]) -> [[bool; 3]; CACHES] {
+        let mut missing = [[false; 3]; CACHES];
+        for (cache, missing) in missing.iter_mut().enumerate() {
+            *missing = corners.map(|corner| self.is_missing(corner, cache));
+            let misses = missing.map(u32::from).iter().sum();
+            if !self.caches[cache].has_room(misses) {
+                self.end_batch::<UNDO>(cache);
+                *missing = [true; 3];
+            }
+            self.caches[cache].faces_in_batch += 1;
+        }
+        missing
     }
 
-    /// Pushes a vertex of `face` into a cache, and evicts another one if the cache was full.
+    /// Marks a face drawn and takes it off the counts of its corners; returns how many of these are
+    /// finished.
+    ///
+    /// It comes before the face's pushes, so that they are not announced to it.
     #[inline]
-    fn push<const UNDO: bool>(&mut self, vertex: u32, cache: usize, face: [u32; 3]) {
+    fn take_off<const UNDO: bool>(&mut self, face: u32, missing: [[bool; 3]; CACHES]) -> u32 {
+        self.drawn[face as usize] = true;
+
+        // By corner, as in `SearchVertex::missing_corners`.
+        let mut counts = [0_u32; 3];
+        for (cache, missing) in missing.iter().enumerate() {
+            for (count, &missing) in counts.iter_mut().zip(missing) {
+                *count += u32::from(missing) * one_in(cache);
+            }
+        }
+
+        let corners = self.faces[face as usize];
+        let mut finished = 0;
+        for i in 0..3 {
+            let others = counts[(i + 1) % 3] + counts[(i + 2) % 3];
+            let vertex = self.vertex_mut::<UNDO>(corners[i]);
+            vertex.live -= 1;
+            vertex.missing_corners = vertex.missing_corners.wrapping_sub(others);
+            let (entered, is_finished) = (vertex.entered[0], vertex.live == 0);
+            if is_finished {
+                finished += 1;
+                self.drop_candidate(entered);
+            }
+        }
+        finished
+    }
+
+    /// Removes the vertex of push `entered` into the first cache from the candidates, if it is one.
+    #[inline]
+    fn drop_candidate(&mut self, entered: u32) {
+        let is_in_window = self.caches[0].pushes - entered <= self.window;
+        self.candidate_pushes.clear_if(is_in_window, entered);
+    }
+
+    /// Pushes a missing corner of the face with `corners` into a cache, and evicts another vertex
+    /// if the cache was full.
+    #[inline]
+    fn push<const UNDO: bool>(&mut self, corner: u32, cache: usize, corners: [u32; 3]) {
         let now = self.caches[cache].pushes;
-        let entry = self.change::<UNDO>(vertex);
-        let before = std::mem::replace(&mut entry.entered[cache], now);
-        let is_live = entry.live != 0;
+        let vertex = self.vertex_mut::<UNDO>(corner);
+        let before = std::mem::replace(&mut vertex.entered[cache], now);
+        let is_live = vertex.live != 0;
 
         // Candidates follow the first cache.
         if cache == 0 {
-            self.forget(before);
+            self.drop_candidate(before);
             self.slide_windows::<UNDO>(now);
-            self.recent.set_if(is_live, now);
+            self.candidate_pushes.set_if(is_live, now);
         }
 
-        let state = &mut self.caches[cache];
-        state.ring[now as usize % RING] = vertex;
-        state.pushes = now + 1;
-        state.vertices = state.vertices.saturating_add(1);
+        // Enter.
+        let model = &mut self.caches[cache];
+        model.ring[now as usize % RING] = corner;
+        model.pushes = now + 1;
+        model.pushes_in_batch = model.pushes_in_batch.saturating_add(1);
 
         // Make room.
-        if state.limits.is_controllable {
-            state.held += 1;
-            if state.held > state.limits.size {
-                self.make_room::<UNDO>(face);
+        if model.limits.is_controllable {
+            model.held += 1;
+            if model.held > model.limits.size {
+                self.make_room::<UNDO>(corners);
             }
-        } else if state.pushes - state.first > state.limits.size {
-            let leaving = state.pushed(state.first);
-            state.first += 1;
+        } else if model.pushes - model.first > model.limits.size {
+            let leaving = model.pushed(model.first);
+            model.first += 1;
             self.exit::<UNDO>(leaving, cache);
         }
 
         if is_live {
-            self.announce::<UNDO>(vertex, one_in(cache).wrapping_neg());
+            self.announce::<UNDO>(corner, one_in(cache).wrapping_neg());
         }
     }
 
@@ -149,34 +169,37 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
     /// candidate that leaves the window; a controllable cache evicts it.
     #[inline]
     fn slide_windows<const UNDO: bool>(&mut self, now: u32) {
+        // The longer windows.
         if CACHES > 1 {
             for (window, exits) in self.windows.iter().zip(&mut self.window_exits) {
-                let entered = now - window;
-                let known = &self.vertices[self.caches[0].pushed(entered) as usize];
-                *exits += u32::from(known.live != 0 && known.entered[0] == entered);
+                let expired = now - window;
+                let vertex = &self.vertices[self.caches[0].pushed(expired) as usize];
+                *exits += u32::from(vertex.live != 0 && vertex.entered[0] == expired);
             }
         }
 
+        // The window of candidates.
         let expired = now - self.window;
-        if self.recent.contains(expired) {
+        if self.candidate_pushes.contains(expired) {
             let leaving = self.caches[0].pushed(expired);
             if self.caches[0].limits.is_controllable {
                 self.evict::<UNDO>(leaving, expired);
             } else {
-                self.recent.clear_if(true, expired);
-                self.left.push(leaving);
+                self.candidate_pushes.clear_if(true, expired);
+                self.dead_ends.push(leaving);
             }
         }
     }
 
     /// Evicts the vertex of a controllable cache that costs most to finish, ties to the oldest;
-    /// never a corner of `face`, which is being drawn.
-    fn make_room<const UNDO: bool>(&mut self, face: [u32; 3]) {
+    /// never one of the `corners` of the face that is being drawn.
+    fn make_room<const UNDO: bool>(&mut self, corners: [u32; 3]) {
         let mut dearest = None;
         let mut most = i64::MIN;
         self.candidates(u32::MAX, |_, candidate| {
+            // In half pushes: as the weights of `preset::controllable`.
             let cost = 2 * i64::from(candidate.missing[0]) - i64::from(candidate.live);
-            if cost > most && !face.contains(&candidate.vertex) {
+            if cost > most && !corners.contains(&candidate.vertex) {
                 most = cost;
                 dearest = Some(candidate.vertex);
             }
@@ -187,12 +210,12 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         }
     }
 
-    /// Evicts an unfinished vertex from a controllable cache.
+    /// Evicts an unfinished vertex, pushed as number `entered`, from a controllable cache.
     fn evict<const UNDO: bool>(&mut self, vertex: u32, entered: u32) {
-        self.recent.clear_if(true, entered);
+        self.candidate_pushes.clear_if(true, entered);
         self.caches[0].held -= 1;
-        self.change::<UNDO>(vertex).entered[0] = 0;
-        self.left.push(vertex);
+        self.vertex_mut::<UNDO>(vertex).entered[0] = 0;
+        self.dead_ends.push(vertex);
         self.exit::<UNDO>(vertex, 0);
     }
 
@@ -208,11 +231,12 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
     /// Empties a cache: all its vertices exit, and a new batch starts.
     #[cold]
     fn end_batch<const UNDO: bool>(&mut self, cache: usize) {
-        let state = &mut self.caches[cache];
-        let Range { start, end } = state.first..state.pushes;
-        state.first = end;
-        state.faces = 0;
-        state.vertices = 0;
+        let model = &mut self.caches[cache];
+        let Range { start, end } = model.first..model.pushes;
+        model.first = end;
+        model.faces_in_batch = 0;
+        model.pushes_in_batch = 0;
+
         for number in start..end {
             let vertex = self.caches[cache].pushed(number);
             self.exit::<UNDO>(vertex, cache);
@@ -227,13 +251,14 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         if row.len() > HUB as usize {
             return;
         }
+
         for entry in row {
             let [face, a, b] = self.rows[entry];
             // Multiplied by 0 for a drawn face: no branch for the processor to guess.
             let change = change.wrapping_mul(u32::from(!self.drawn[face as usize]));
             for neighbour in [a, b] {
-                let neighbour = self.change::<UNDO>(neighbour);
-                neighbour.missing = neighbour.missing.wrapping_add(change);
+                let neighbour = self.vertex_mut::<UNDO>(neighbour);
+                neighbour.missing_corners = neighbour.missing_corners.wrapping_add(change);
             }
         }
     }

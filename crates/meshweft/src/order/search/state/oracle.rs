@@ -78,7 +78,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
             }
             assert_eq!(vertex.live, live, "faces left of {v}");
             for (cache, missing) in missing.into_iter().enumerate() {
-                let counted = vertex.missing >> (16 * cache) & 0xffff;
+                let counted = vertex.missing_corners >> (16 * cache) & 0xffff;
                 assert_eq!(counted, missing, "neighbours of {v} missing from {cache}");
             }
         }
@@ -120,7 +120,7 @@ fn draw_all<M: Mask, const CACHES: usize>(
         let before = (
             state.vertices.clone(),
             state.drawn.clone(),
-            state.left.clone(),
+            state.dead_ends.clone(),
         );
         let saved = state.save();
         state.begin();
@@ -134,11 +134,12 @@ fn draw_all<M: Mask, const CACHES: usize>(
         // Taken back, nothing but the attempt numbers has changed.
         state.undo(&saved);
         let known = |vertices: &[SearchVertex<CACHES>]| -> Vec<_> {
-            let known = |v: &SearchVertex<CACHES>| (v.entered, v.row, v.live, v.missing);
+            let known =
+                |v: &SearchVertex<CACHES>| (v.entered, v.row_start, v.live, v.missing_corners);
             vertices.iter().map(known).collect()
         };
         assert_eq!(known(&state.vertices), known(&before.0));
-        assert_eq!((&state.drawn, &state.left), (&before.1, &before.2));
+        assert_eq!((&state.drawn, &state.dead_ends), (&before.1, &before.2));
 
         state.draw::<false>(focus);
         state.assert_counts();

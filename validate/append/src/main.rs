@@ -1,0 +1,21 @@
+//! Adds meshes to a glTF, or makes files from nothing, for `../append.mjs` to judge.
+//!
+//! `meshweft-append scene IN OUT` adds to each of the first meshes every second of its faces, over its
+//! vertices, and one mesh of its own; a line of output tells of each new mesh which one it shares
+//! vertices with. `meshweft-append create FOLDER` makes a GLB, a glTF and a PLY.
+
+mod create;
+mod scene;
+
+use std::error::Error;
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments[..] {
+        ["scene", from, to] => scene::append(Path::new(from), Path::new(to)),
+        ["create", folder] => create::all(Path::new(folder)),
+        _ => Err("use: meshweft-append scene IN OUT | meshweft-append create FOLDER".into()),
+    }
+}

@@ -1,0 +1,52 @@
+// What the checks of glTF files share: the files, their JSON, and what the Khronos validator finds.
+
+import { copyFile, mkdir, readdir, readFile } from "node:fs/promises";
+import { dirname, join, relative } from "node:path";
+
+import validator from "gltf-validator";
+
+import { Glb } from "./glb.mjs";
+
+export const isGlb = (file) => file.endsWith(".glb");
+export const isError = ({ severity }) => severity === 0;
+export const names = (list) => (list.length ? ` (${list.join(", ")})` : "");
+
+export async function filesBelow(folder) {
+    const entries = await readdir(folder, { recursive: true, withFileTypes: true });
+    const files = entries.filter((entry) => entry.isFile()).map((entry) => join(entry.parentPath, entry.name));
+    return files.filter((file) => /\.(glb|gltf)$/.test(file)).sort();
+}
+
+/** Copies all files; the folders may be written, whatever those of the source may. */
+export async function copyBelow(from, to) {
+    for (const entry of await readdir(from, { recursive: true, withFileTypes: true })) {
+        const target = join(to, relative(from, entry.parentPath));
+        await mkdir(target, { recursive: true });
+        if (entry.isFile()) await copyFile(join(entry.parentPath, entry.name), join(target, entry.name));
+    }
+}
+
+export async function jsonOf(file) {
+    const bytes = await readFile(file);
+    return isGlb(file) ? new Glb(bytes).json : JSON.parse(bytes.toString());
+}
+
+/** What the Khronos validator finds, and what it counts. */
+export async function findings(file, uri) {
+    const validated = validator.validateBytes(new Uint8Array(await readFile(file)), {
+        uri,
+        maxIssues: 0,
+        externalResourceFunction: async (name) => {
+            const bytes = await readFile(join(dirname(file), name)).catch(() => {
+                // The system's error text names the folder.
+                throw new Error("not there");
+            });
+            return new Uint8Array(bytes);
+        },
+    });
+    return validated.then(
+        (report) => ({ messages: report.issues.messages, counts: JSON.stringify(report.info) }),
+        // What is no glTF at all makes no report.
+        (error) => ({ messages: [{ severity: 0, code: "NOT_READ", message: String(error) }], counts: "" }),
+    );
+}
