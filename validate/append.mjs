@@ -183,7 +183,8 @@ async function check(source, name, folder, tally) {
     const [old, now] = [await loaded(source), await loaded(result)];
     if (old.error !== undefined) tally.unreadable.push(name);
     if (old.error !== now.error) problems.push(`three.js: ${old.error ?? "loaded"} | ${now.error ?? "loaded"}`);
-    if (now.gltf) problems.push(...compareDrawn({ name, told, before, after, old, now, tally }));
+    if (now.gltf && !now.gltf.scene) problems.push("/scenes: nothing is drawn");
+    else if (now.gltf) problems.push(...compareDrawn({ name, told, before, after, old, now, tally }));
     tally.problems.push(...problems.map((text) => `${name}: ${text}`));
 }
 
@@ -230,7 +231,7 @@ const scratch = kept ?? (await mkdtemp(join(tmpdir(), "meshweft-append-")));
 try {
     const tally = new Tally();
     await mkdir(scratch, { recursive: true });
-    await checkCreated(join(scratch, "created"), tally);
+    await checkCreated(join(scratch, "created"), tally).catch((error) => tally.problems.push(`created: ${error.message}`));
     const made = join(scratch, "made.glb");
     await writeFile(made, make());
     await check(made, "made.glb", join(scratch, "out"), tally);

@@ -219,6 +219,21 @@ fn what_a_format_cannot_hold_is_said() {
         ),
         (
             Format::Glb,
+            vec![positions(), by_vertex(Color(1), 4, F32)],
+            "new: glTF does not store COLOR_1 without COLOR_0",
+        ),
+        (
+            Format::Glb,
+            vec![positions(), by_vertex(Joints(0), 4, U8)],
+            "new: glTF does not store JOINTS_0 without WEIGHTS_0",
+        ),
+        (
+            Format::Glb,
+            vec![positions(), of_target(0, by_vertex(Normal, 3, F32))],
+            "new: a morph target has NORMAL, which the mesh itself does not have",
+        ),
+        (
+            Format::Glb,
             vec![positions(), unknown],
             "new: NORMAL of vertex 3 is not finite, which glTF does not allow",
         ),

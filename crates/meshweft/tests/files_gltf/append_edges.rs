@@ -150,6 +150,32 @@ fn a_chunk_may_be_longer_than_its_buffer_or_of_an_odd_length() {
 }
 
 #[test]
+fn a_chunk_may_stand_before_the_binary_one() {
+    let (builder, json) = scene(None);
+    let mut bytes = glb(&json.to_string(), None);
+    bytes.truncate(bytes.len() - b"behind".len());
+    bytes.extend_from_slice(&u32::try_from(builder.binary.len()).unwrap().to_le_bytes());
+    bytes.extend_from_slice(b"BIN\0");
+    bytes.extend_from_slice(&builder.binary);
+    let length = u32::try_from(bytes.len()).unwrap().to_le_bytes();
+    bytes[8..12].copy_from_slice(&length);
+    let name = Path::new("test.glb");
+    let mut document = Document::from_bytes(bytes, Format::Glb, name, Limits::default()).unwrap();
+    append(&mut document).unwrap();
+    let written = document.to_main_bytes().unwrap();
+    assert_eq!(
+        written[8..12],
+        u32::try_from(written.len()).unwrap().to_le_bytes()
+    );
+    assert!(
+        written
+            .windows(12)
+            .any(|w| w == b"\x04\0\0\0ODD\0\x01\x02\x03\x04")
+    );
+    reopened(&document);
+}
+
+#[test]
 fn orders_and_new_meshes_take_turns() {
     let (builder, json) = scene(None);
     let bytes = glb(&json.to_string(), Some(&builder.binary));

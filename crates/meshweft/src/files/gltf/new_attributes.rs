@@ -15,6 +15,45 @@ pub(super) struct NewAccessor {
     pub(super) stride: Option<usize>,
 }
 
+/// Whether a primitive may have these attributes together.
+///
+/// # Errors
+/// Numbered ones are not numbered from 0 on, joints and weights do not go together, or a morph target
+/// moves what is not there.
+pub(super) fn check_together(attributes: &[Attribute]) -> Result<(), FileErrorKind> {
+    use Semantic::{Color, Joints, TexCoord, Weights};
+    let infos = attributes.iter().map(|attribute| &attribute.info);
+    let (own, of_targets): (Vec<_>, Vec<_>) = infos.partition(|info| info.morph_target.is_none());
+    let has = |semantic: &Semantic| own.iter().any(|info| info.semantic == *semantic);
+    let first_missing = |info: &AttributeInfo| {
+        let wanted = match info.semantic {
+            TexCoord(n) => (n > 0).then(|| vec![TexCoord(n - 1)]),
+            Color(n) => (n > 0).then(|| vec![Color(n - 1)]),
+            Joints(0) => Some(vec![Weights(0)]),
+            Joints(n) => Some(vec![Joints(n - 1), Weights(n)]),
+            Weights(0) => Some(vec![Joints(0)]),
+            Weights(n) => Some(vec![Weights(n - 1), Joints(n)]),
+            _ => None,
+        };
+        let mut wanted = wanted.into_iter().flatten();
+        wanted.find(|semantic| !has(semantic))
+    };
+
+    let lonely = |info: &&AttributeInfo| Some((info.semantic.to_string(), first_missing(info)?));
+    if let Some((name, missing)) = own.iter().find_map(lonely) {
+        let text = format!("glTF does not store {name} without {missing}");
+        return Err(FileErrorKind::unsupported(text));
+    }
+    if let Some(moved) = of_targets.iter().find(|info| !has(&info.semantic)) {
+        let text = format!(
+            "a morph target has {}, which the mesh itself does not have",
+            moved.semantic
+        );
+        return Err(FileErrorKind::unsupported(text));
+    }
+    Ok(())
+}
+
 /// The accessor of an attribute of vertices.
 ///
 /// # Errors

@@ -7,7 +7,7 @@ use serde_json::{Value as NewJson, json};
 use super::additions::Additions;
 use super::json::Value;
 use super::movable::PrimitiveNumber;
-use super::new_attributes::accessor_of;
+use super::new_attributes::{accessor_of, check_together};
 use super::object::Object;
 use super::scene::{Drawn, INSTANCES, Scenes};
 use crate::attribute::Attribute;
@@ -144,6 +144,8 @@ impl<'a> NewMeshes<'a> {
             let number = self.accessor(&accessor.json);
             sets[set].insert(attribute.info.semantic.to_string(), number.into());
         }
+        // After what is wrong with one alone, which says more.
+        check_together(attributes)?;
 
         let mut sets = sets.into_iter().map(NewJson::from);
         let mut members = vec![format!(

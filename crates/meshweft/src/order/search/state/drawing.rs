@@ -41,10 +41,10 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
     fn draw_face<const UNDO: bool>(&mut self, face: u32) {
         let corners = self.faces[face as usize];
         let missing = self.place_in_batches::<UNDO>(corners);
-        let finished = self.take_off::<UNDO>(face, missing);
+        let finished = self.take_off::<UNDO>(face, corners, missing);
 
         // Turn its corners so that the hits of the first cache come first.
-        let set = missing[0].map(usize::from);
+        let set = missing.map(|missing| (missing & one_in(0)) as usize);
         let rotation = match self.keep_corners {
             true => 0,
             false => HITS_FIRST[set[0] | set[1] << 1 | set[2] << 2],
@@ -70,43 +70,43 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         }
     }
 
-    /// Adds a face to the batch of each cache, or to a new one if it does not fit; returns which of
-    /// its corners each cache then misses.
+    /// Adds a face to the batch of each cache, or to a new one if it does not fit; returns for each
+    /// corner [`one_in`] each cache that misses it then.
     #[inline]
-    fn place_in_batches<const UNDO: bool>(&mut self, corners: [u32; 3]) -> [[bool; 3]; CACHES] {
-        let mut missing = [[false; 3]; CACHES];
-        for (cache, missing) in missing.iter_mut().enumerate() {
-            *missing = corners.map(|corner| self.is_missing(corner, cache));
-            let misses = missing.map(u32::from).iter().sum();
+    fn place_in_batches<const UNDO: bool>(&mut self, corners: [u32; 3]) -> [u32; 3] {
+        let mut missing = [0; 3];
+        for cache in 0..CACHES {
+            let mut missing_here = corners.map(|corner| self.is_missing(corner, cache));
+            let misses = missing_here.map(u32::from).iter().sum();
             if !self.caches[cache].has_room(misses) {
                 self.end_batch::<UNDO>(cache);
-                *missing = [true; 3];
+                missing_here = [true; 3];
             }
             self.caches[cache].faces_in_batch += 1;
+
+            for (missing, here) in missing.iter_mut().zip(missing_here) {
+                *missing += u32::from(here) * one_in(cache);
+            }
         }
         missing
     }
 
-    /// Marks a face drawn and takes it off the counts of its corners; returns how many of these are
-    /// finished.
+    /// Marks a face drawn and takes it off the counts of its corners, of which `missing` says where
+    /// they are missing; returns how many of them are finished.
     ///
     /// It comes before the face's pushes, so that they are not announced to it.
     #[inline]
-    fn take_off<const UNDO: bool>(&mut self, face: u32, missing: [[bool; 3]; CACHES]) -> u32 {
+    fn take_off<const UNDO: bool>(
+        &mut self,
+        face: u32,
+        corners: [u32; 3],
+        missing: [u32; 3],
+    ) -> u32 {
         self.drawn[face as usize] = true;
 
-        // By corner, as in `SearchVertex::missing_corners`.
-        let mut counts = [0_u32; 3];
-        for (cache, missing) in missing.iter().enumerate() {
-            for (count, &missing) in counts.iter_mut().zip(missing) {
-                *count += u32::from(missing) * one_in(cache);
-            }
-        }
-
-        let corners = self.faces[face as usize];
         let mut finished = 0;
         for i in 0..3 {
-            let others = counts[(i + 1) % 3] + counts[(i + 2) % 3];
+            let others = missing[(i + 1) % 3] + missing[(i + 2) % 3];
             let vertex = self.vertex_mut::<UNDO>(corners[i]);
             vertex.live -= 1;
             vertex.missing_corners = vertex.missing_corners.wrapping_sub(others);
