@@ -57,6 +57,9 @@ pub struct Written {
     pub files: Vec<PathBuf>,
     /// The size of all of them as they stand on the disk.
     pub bytes: u64,
+    /// Those beside the main file that have another name than the document read them by: what it was, and
+    /// what it is, in the folder of the main file.
+    pub renamed: Vec<(PathBuf, String)>,
 }
 
 impl Document {
@@ -356,9 +359,16 @@ impl Document {
                         .filter(|(file, _)| !is_beside || !is_there(file) || is_main(file))
                         .map(|(file, size)| (file.path, size))
                         .unzip();
+                    let renamed = beside.iter().zip(&placed).filter_map(|(beside, placed)| {
+                        let Placed::Renamed { name, .. } = placed else {
+                            return None;
+                        };
+                        Some((beside.relative.to_owned(), name.clone()))
+                    });
                     return Ok(Written {
                         files,
                         bytes: sizes.iter().sum(),
+                        renamed: renamed.collect(),
                     });
                 }
                 // Somebody else took a name: look again.

@@ -20,6 +20,8 @@ pub(super) struct Container {
     pub(super) binary: Option<Vec<u8>>,
     /// What follows it: further chunks, and bytes past the length in the header.
     pub(super) tail: Vec<u8>,
+    /// Whether the text is another than the one that was read.
+    pub(super) is_changed: bool,
 }
 
 impl Container {
@@ -31,6 +33,7 @@ impl Container {
             json,
             binary: None,
             tail: Vec::new(),
+            is_changed: false,
         }
     }
 
@@ -78,6 +81,7 @@ impl Container {
                 json: json_range,
                 binary: None,
                 tail,
+                is_changed: true,
             });
         }
 
@@ -112,6 +116,7 @@ impl Container {
             json: json_range,
             binary: None,
             tail,
+            is_changed: true,
         })
     }
 
@@ -133,6 +138,7 @@ impl Container {
             json,
             binary: None,
             tail: Vec::new(),
+            is_changed: false,
         })
     }
 
@@ -199,6 +205,7 @@ impl Container {
             json,
             binary: data,
             tail,
+            is_changed: false,
         })
     }
 }

@@ -40,9 +40,8 @@ impl<'a> Output<'a> {
     pub(super) fn unchanged_text(&self) -> Option<&'a [u8]> {
         let in_text = |storage: &Storage| !matches!(storage.source, Source::External(_));
         let storages = &self.buffers.storages;
-        let is_changed = storages
-            .iter()
-            .any(|storage| in_text(storage) && storage.is_changed);
+        let mut in_text = storages.iter().filter(|storage| in_text(storage));
+        let is_changed = self.container.is_changed || in_text.any(|storage| storage.is_changed);
         (!self.container.is_glb() && !is_changed).then_some(self.container.head.as_slice())
     }
 
