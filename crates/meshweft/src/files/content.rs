@@ -68,9 +68,9 @@ pub(super) type WriteFile<'a> = dyn Fn(&mut dyn io::Write) -> io::Result<()> + '
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum OutputPlace {
     /// The file itself, with these bytes.
-    IsThere,
+    Occupied,
     /// Nothing, and nothing is replaced.
-    IsFree,
+    Free,
     /// Anything: it is replaced.
-    IsReplaced,
+    Replaced,
 }

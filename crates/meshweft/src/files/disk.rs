@@ -194,7 +194,7 @@ pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf
     let mut written = Vec::new();
     let mut sizes = Vec::new();
     for file in files {
-        if file.place == OutputPlace::IsThere {
+        if file.place == OutputPlace::Occupied {
             sizes.push(fs::metadata(&file.path).map_or(0, |data| data.len()));
             continue;
         }
@@ -213,7 +213,7 @@ pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf
         if is_synced && std::ptr::eq(file, main) {
             sync_folders(files);
         }
-        let named = new.rename(file.place == OutputPlace::IsFree);
+        let named = new.rename(file.place == OutputPlace::Free);
         named.map_err(|error| of(error, &file.path))?;
     }
     if is_synced {

@@ -11,7 +11,8 @@
 //! | what can be done to a document | [`Edit`], [`Document::create`] |
 //! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `record_file` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
-//! | where bytes come from and go to | `disk`, `surroundings` |
+//! | where bytes come from | `disk`, `surroundings` |
+//! | where they go, and why nothing is lost on the way | `write`, `placing`, `disk` |
 
 mod content;
 mod decoded;
@@ -39,9 +40,10 @@ mod stl;
 mod surroundings;
 mod text;
 mod vrml;
+mod write;
 
 pub use disk::{is_gzip, remove_abandoned};
-pub use document::{Document, Written};
+pub use document::Document;
 pub use edit::{Edit, NewValue};
 pub use entry::MeshEntry;
 pub use error::{FileError, FileErrorKind, Place};
@@ -51,3 +53,4 @@ pub use new_mesh::{NewMesh, NewVertices};
 pub use note::Note;
 pub use options::ReadOptions;
 pub use surroundings::Surroundings;
+pub use write::Written;

@@ -47,7 +47,7 @@ impl Placed {
 }
 
 /// Where a document goes on a disk.
-pub(super) struct Target<'a> {
+pub(super) struct Placement<'a> {
     /// The main file.
     pub(super) path: &'a Path,
     /// Whether the document was read from the folder of the main file, and whether from that file.
@@ -61,7 +61,7 @@ pub(super) struct Target<'a> {
     pub(super) holds: fn(&Path, &[u8]) -> io::Result<bool>,
 }
 
-impl Target<'_> {
+impl Placement<'_> {
     /// What becomes of each.
     ///
     /// # Errors
@@ -71,7 +71,7 @@ impl Target<'_> {
         for beside in all {
             placed.push(match self.alone(beside) {
                 Some(placed) => placed,
-                None => self.renamed(beside, all)?,
+                None => self.with_new_name(beside, all)?,
             });
         }
 
@@ -82,7 +82,7 @@ impl Target<'_> {
         if replaced.count() > usize::from(!changes_text) {
             for (placed, beside) in placed.iter_mut().zip(all) {
                 if *placed == Placed::Replaces {
-                    *placed = self.renamed(beside, all)?;
+                    *placed = self.with_new_name(beside, all)?;
                 }
             }
         }
@@ -100,6 +100,16 @@ impl Target<'_> {
         }
         let named = self.named.iter().filter(|&named| !kept.contains(named));
         named.cloned().collect()
+    }
+
+    /// What files were called, and what they are called now.
+    pub(super) fn renamed(&self, all: &[Beside<'_>], placed: &[Placed]) -> Vec<(PathBuf, String)> {
+        let pairs = all.iter().zip(placed);
+        let renamed = pairs.filter_map(|(beside, placed)| match placed {
+            Placed::Renamed { name, .. } => Some((beside.relative.to_owned(), name.clone())),
+            Placed::Stays | Placed::New | Placed::Replaces => None,
+        });
+        renamed.collect()
     }
 
     /// Whether the main file changes, even if all others keep their names.
@@ -131,7 +141,7 @@ impl Target<'_> {
     }
 
     /// A name that says whose it is, or else what is in it: nobody uses it for anything else.
-    fn renamed(&self, beside: &Beside<'_>, all: &[Beside<'_>]) -> Result<Placed, Problem> {
+    fn with_new_name(&self, beside: &Beside<'_>, all: &[Beside<'_>]) -> Result<Placed, Problem> {
         let name = self.path.file_name().and_then(|name| name.to_str());
         let name = name.ok_or_else(|| {
             let feature = "the name of a buffer beside the output would not be UTF-8 text: choose \
@@ -159,10 +169,12 @@ impl Target<'_> {
             .clone()
             .any(|other| other.relative == Path::new(&plain));
         let is_single = !others.clone().any(|other| other.is_changed);
-        if is_single && !is_of_another && !self.is_over {
-            if let Some(placed) = renamed(plain) {
-                return Ok(placed);
-            }
+        if is_single
+            && !is_of_another
+            && !self.is_over
+            && let Some(placed) = renamed(plain)
+        {
+            return Ok(placed);
         }
 
         // Eight digits of what is in it, more if another file has them.

@@ -134,7 +134,7 @@ impl<N: Notation> Content for RecordFile<N> {
     fn files(&self, path: &Path, _: &[Placed]) -> Result<Vec<OutputFile<'_>>, Problem> {
         Ok(vec![OutputFile {
             path: path.to_owned(),
-            place: OutputPlace::IsReplaced,
+            place: OutputPlace::Replaced,
             write: Box::new(|sink| self.write(sink)),
         }])
     }

@@ -81,8 +81,8 @@ impl<'a> Output<'a> {
         files.push(OutputFile {
             path: path.to_owned(),
             place: match is_same {
-                true => OutputPlace::IsThere,
-                false => OutputPlace::IsReplaced,
+                true => OutputPlace::Occupied,
+                false => OutputPlace::Replaced,
             },
             write: Box::new(move |sink| parts.iter().try_for_each(|part| sink.write_all(part))),
         });
@@ -130,17 +130,17 @@ fn buffer_file<'a>(
     placed: &Placed,
 ) -> Result<OutputFile<'a>, Problem> {
     let (relative, place) = match placed {
-        Placed::Stays => (relative, OutputPlace::IsThere),
-        Placed::New => (relative, OutputPlace::IsFree),
-        Placed::Replaces => (relative, OutputPlace::IsReplaced),
+        Placed::Stays => (relative, OutputPlace::Occupied),
+        Placed::New => (relative, OutputPlace::Free),
+        Placed::Replaces => (relative, OutputPlace::Replaced),
         Placed::Renamed {
             name,
             is_there: true,
-        } => (Path::new(name), OutputPlace::IsThere),
+        } => (Path::new(name), OutputPlace::Occupied),
         Placed::Renamed {
             name,
             is_there: false,
-        } => (Path::new(name), OutputPlace::IsFree),
+        } => (Path::new(name), OutputPlace::Free),
     };
     let path = main.with_file_name(relative);
     if path == main {

@@ -333,7 +333,7 @@ impl Content for VrmlFile {
     fn files(&self, path: &Path, _: &[Placed]) -> Result<Vec<OutputFile<'_>>, Problem> {
         Ok(vec![OutputFile {
             path: path.to_owned(),
-            place: OutputPlace::IsReplaced,
+            place: OutputPlace::Replaced,
             write: Box::new(|sink| self.write(sink)),
         }])
     }
