@@ -14,6 +14,7 @@ use crate::columns::columns;
 use crate::plot::{self, Curve};
 use crate::run::inputs;
 use crate::run::output::{self, Report};
+use crate::run::side_file::PLOT;
 use crate::usage;
 
 #[derive(Debug, Args)]
@@ -24,6 +25,9 @@ pub(crate) struct Inspect {
     /// Draw misses per face over the size of a FIFO cache: one curve a file
     #[arg(long, value_name = "OUT.svg")]
     plot: Option<PathBuf>,
+    /// Let --plot replace a file that another program wrote
+    #[arg(long, requires = "plot")]
+    force: bool,
     /// Also draw a curve for each file as ordered by every method
     #[arg(long, requires = "plot")]
     methods: bool,
@@ -36,9 +40,14 @@ pub(crate) struct Inspect {
 /// Prints the counts of each file.
 pub(crate) fn run(arguments: &Inspect) -> Result<()> {
     let models = arguments.caches.models();
+    let inputs = inputs::expand(&arguments.inputs, None)?;
+    if let Some(path) = &arguments.plot {
+        PLOT.check_no_mesh(path, inputs.iter().map(|input| input.path.as_path()))?;
+        PLOT.check(path, arguments.force)?;
+    }
     let mut failed: Option<Error> = None;
     let mut curves = Vec::new();
-    for input in inputs::expand(&arguments.inputs, None)? {
+    for input in inputs {
         match inspect(&input.path, &models, arguments) {
             Ok(more) => curves.extend(more),
             Err(error) => {

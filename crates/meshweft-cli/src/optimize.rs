@@ -11,9 +11,10 @@ use meshweft::files::Document;
 use meshweft::operations::{self, OptimizeReport, Options};
 
 use crate::run::arguments::{Reading, Run};
-use crate::run::jobs::{Job, Jobs};
+use crate::run::jobs::{Job, Jobs, names_of};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
+use crate::run::side_file::PERMUTATION;
 use crate::run::watch::Watch;
 use crate::run::{self, Outcome, output, write};
 use crate::usage::Usage;
@@ -50,6 +51,10 @@ pub(crate) fn run(arguments: &Optimize) -> Result<()> {
     if arguments.write_permutation.is_some() && !jobs.is_one_file {
         return Err(Usage("--write-permutation takes one file at a time".into()).into());
     }
+    if let Some(path) = &arguments.write_permutation {
+        PERMUTATION.check_no_mesh(path, names_of(&jobs.list))?;
+        PERMUTATION.check(path, arguments.run.force)?;
+    }
     let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
     let work = |job: &Job| optimize(job, &jobs.shared_buffers, &options, shows_bar, arguments);
     run::over_files(
@@ -76,9 +81,11 @@ fn optimize(
     let mut report = operations::optimize(&mut document, options, &watch)?;
     watch.finish();
 
+    let mut renamed = Vec::new();
     if arguments.run.writes(report.is_changed()) {
-        let bytes = write::write(job, &document, report.is_changed())?;
-        report.set_output(&job.target, bytes);
+        let written = write::write(job, &document, report.is_changed(), arguments.run.force)?;
+        report.set_output(&job.target, written.bytes);
+        renamed = written.renamed;
     }
     if let Some(file) = &arguments.write_permutation {
         let text = report.permutations_to_json();
@@ -90,7 +97,7 @@ fn optimize(
         json: report.to_json(),
         total: report.total_to_json(),
         text: text(&report),
-        notes: output::note_lines(&report.file, &report.notes),
+        notes: [output::note_lines(&report.file, &report.notes), renamed].concat(),
     })
 }
 

@@ -24,6 +24,9 @@ pub(crate) struct Run {
     #[arg(long)]
     pub(crate) dry_run: bool,
     // The flags above are listed before a verb's own, those below after them.
+    /// Replace files that are read-only, and one that another program wrote by --write-permutation
+    #[arg(long, display_order = 99)]
+    pub(crate) force: bool,
     /// Go on with the next file when one fails
     #[arg(long, display_order = 100)]
     pub(crate) keep_going: bool,

@@ -109,6 +109,12 @@ impl Job {
 }
 
 /// Whether an output is a folder, or is to become one.
+/// The inputs and outputs of jobs.
+pub(crate) fn names_of(jobs: &[Job]) -> impl Iterator<Item = &Path> {
+    jobs.iter()
+        .flat_map(|job| [job.input.as_path(), &job.target])
+}
+
 fn is_folder(out: &Path) -> bool {
     out.is_dir() || out.as_os_str().as_encoded_bytes().ends_with(b"/")
 }

@@ -13,14 +13,15 @@ use serde_json::{Value, json};
 /// A file of JSON lines, one for each finished input.
 pub(super) struct Manifest {
     path: PathBuf,
-    file: Mutex<File>,
+    /// `None` if nothing is to be written.
+    file: Option<Mutex<File>>,
     /// Input and output of what was done before.
     done: BTreeSet<(String, String)>,
 }
 
 impl Manifest {
-    /// Opens the manifest, or a new one, and reads what is in it.
-    pub(super) fn open(path: &Path) -> Result<Self> {
+    /// Reads what is in the manifest, and opens it, or a new one, unless nothing is to be written.
+    pub(super) fn open(path: &Path, is_dry_run: bool) -> Result<Self> {
         let context = || path.display().to_string();
         let text = match fs::read(path) {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
@@ -45,17 +46,19 @@ impl Manifest {
             }
         }
 
-        let file = OpenOptions::new().append(true).create(true).open(path);
+        let path = path.to_owned();
+        if is_dry_run {
+            let file = None;
+            return Ok(Self { path, file, done });
+        }
+        let file = OpenOptions::new().append(true).create(true).open(&path);
         let mut file = file.with_context(context)?;
         // A run that was killed may have left half a line: the next one must not be added to it.
         if !text.is_empty() && !text.ends_with('\n') {
             file.write_all(b"\n").with_context(context)?;
         }
-        Ok(Self {
-            path: path.to_owned(),
-            file: Mutex::new(file),
-            done,
-        })
+        let file = Some(Mutex::new(file));
+        Ok(Self { path, file, done })
     }
 
     /// Whether an earlier run wrote `output` from `input`, and it is still there.
@@ -89,7 +92,10 @@ impl Manifest {
 
         // In one write: no other thread's line comes in between.
         let line = format!("{line}\n");
-        let mut file = self.file.lock().unwrap_or_else(|lock| lock.into_inner());
+        let Some(file) = &self.file else {
+            return Ok(());
+        };
+        let mut file = file.lock().unwrap_or_else(|lock| lock.into_inner());
         file.write_all(line.as_bytes())
             .with_context(|| self.path.display().to_string())
     }

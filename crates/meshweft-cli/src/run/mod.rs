@@ -12,6 +12,7 @@ pub(crate) mod jobs;
 mod manifest;
 pub(crate) mod ordering;
 pub(crate) mod output;
+pub(crate) mod side_file;
 pub(crate) mod watch;
 mod workers;
 pub(crate) mod write;
@@ -27,6 +28,7 @@ use arguments::Run;
 use jobs::Job;
 use manifest::Manifest;
 use output::Report;
+use side_file::MANIFEST;
 use workers::Workers;
 
 /// What there is to say about a file.
@@ -53,7 +55,7 @@ pub(crate) fn over_files(
     report: &Report,
     work: impl Fn(&Job) -> Result<Outcome> + Sync,
 ) -> Result<()> {
-    let manifest = run.manifest.as_deref().map(Manifest::open).transpose()?;
+    let manifest = open_manifest(jobs, run)?;
     let workers = Workers::new(run, jobs.len())?;
     if !run.dry_run {
         prepare_to_write(jobs);
@@ -102,6 +104,17 @@ pub(crate) fn over_files(
     let done = batch::run(jobs.len(), workers.jobs, run.keep_going, do_job, tell);
     bar.finish_and_clear();
     done
+}
+
+/// The list of what is done, if the run has one and it is not a mesh, or any other file.
+fn open_manifest(jobs: &[Job], run: &Run) -> Result<Option<Manifest>> {
+    let Some(path) = run.manifest.as_deref() else {
+        return Ok(None);
+    };
+    MANIFEST.check_no_mesh(path, jobs::names_of(jobs))?;
+    // It is appended to, so nothing can allow another file.
+    MANIFEST.check(path, false)?;
+    Ok(Some(Manifest::open(path, run.dry_run)?))
 }
 
 /// Lets no signal cut a file short, and removes the temporary files of runs that were killed.

@@ -222,6 +222,20 @@ pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf
     Ok(sizes)
 }
 
+/// Copies a file as it is, so that whenever this ends, `to` is all old or all new; its size.
+///
+/// # Errors
+/// What the system says.
+pub fn copy_file(from: &Path, to: &Path) -> io::Result<u64> {
+    let mut source = fs::File::open(from)?;
+    let mut new = Temporary::empty(to)?;
+    io::copy(&mut source, &mut new.file)?;
+    new.finish(to.exists())?;
+    let size = new.size;
+    new.rename(false)?;
+    Ok(size)
+}
+
 /// Makes the names of files last. Systems without a way to do this do it on their own.
 fn sync_folders(files: &[OutputFile<'_>]) {
     let folders: BTreeSet<&Path> = files.iter().filter_map(|file| file.path.parent()).collect();
@@ -249,12 +263,26 @@ struct Temporary {
 }
 
 impl Temporary {
-    /// Writes a file in the folder of its target. A link is followed, and a file that is replaced keeps
-    /// its permissions.
+    /// Writes a file; with `is_synced`, its bytes are on the disk then.
     fn new(output: &OutputFile<'_>, is_synced: bool) -> io::Result<Self> {
-        // Two threads may write one buffer that two files share.
+        let mut new = Self::empty(&output.path)?;
+        if is_gzip(&new.target) {
+            // No time stamp in the header: the same bytes in give the same bytes out.
+            let mut encoder = GzEncoder::new(&mut new.file, Compression::default());
+            (output.write)(&mut encoder)?;
+            encoder.finish()?;
+        } else {
+            (output.write)(&mut new.file)?;
+        }
+        new.finish(is_synced)?;
+        Ok(new)
+    }
+
+    /// A file without bytes in the folder of its target. A link is followed.
+    fn empty(target: &Path) -> io::Result<Self> {
+        // Two threads may write one file.
         static NUMBER: AtomicU64 = AtomicU64::new(0);
-        let target = fs::canonicalize(&output.path).unwrap_or_else(|_| output.path.clone());
+        let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let mut name = OsString::from(".");
         name.push(target.file_name().unwrap_or_default());
@@ -264,33 +292,22 @@ impl Temporary {
         let file = fs::File::create(&path)?;
         // Not every file system has locks; without one nobody clears up after a dead writer.
         let _ = file.lock();
-        // From here on it goes away if anything fails.
-        let mut new = Self {
+        Ok(Self {
             path,
             target,
             size: 0,
             file,
-        };
-        new.write(output)?;
-        if is_synced {
-            new.file.sync_all()?;
-        }
-        Ok(new)
+        })
     }
 
-    fn write(&mut self, output: &OutputFile<'_>) -> io::Result<()> {
-        let file = &mut self.file;
-        if is_gzip(&self.target) {
-            // No time stamp in the header: the same bytes in give the same bytes out.
-            let mut encoder = GzEncoder::new(&mut *file, Compression::default());
-            (output.write)(&mut encoder)?;
-            encoder.finish()?;
-        } else {
-            (output.write)(file)?;
-        }
-        self.size = file.metadata()?.len();
+    /// All its bytes are written. A file that is replaced keeps its permissions.
+    fn finish(&mut self, is_synced: bool) -> io::Result<()> {
+        self.size = self.file.metadata()?.len();
         if let Ok(replaced) = fs::metadata(&self.target) {
-            file.set_permissions(replaced.permissions())?;
+            self.file.set_permissions(replaced.permissions())?;
+        }
+        if is_synced {
+            self.file.sync_all()?;
         }
         Ok(())
     }

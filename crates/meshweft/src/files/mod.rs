@@ -42,7 +42,7 @@ mod text;
 mod vrml;
 mod write;
 
-pub use disk::{is_gzip, remove_abandoned};
+pub use disk::{copy_file, is_gzip, remove_abandoned};
 pub use document::Document;
 pub use edit::{Edit, NewValue};
 pub use entry::MeshEntry;

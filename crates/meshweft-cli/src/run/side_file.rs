@@ -1,0 +1,104 @@
+//! Files that a run writes beside the meshes: lists, orders, plots. None of them replaces anything else.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use crate::usage::Usage;
+
+/// A kind of such files: the flag that names one, and how one is known again.
+pub(crate) struct SideFile {
+    pub(crate) flag: &'static str,
+    /// Whether a file that starts with these bytes is of this kind.
+    pub(crate) is_own: fn(&[u8]) -> bool,
+}
+
+/// What `--write-permutation` writes.
+pub(crate) const PERMUTATION: SideFile = SideFile {
+    flag: "--write-permutation",
+    is_own: |start| {
+        let text = String::from_utf8_lossy(start);
+        text.starts_with("{\"schema\":") && text.contains("out[i] = in[new_to_old[i]]")
+    },
+};
+
+/// What `--plot` writes.
+pub(crate) const PLOT: SideFile = SideFile {
+    flag: "--plot",
+    is_own: |start| {
+        let text = String::from_utf8_lossy(start);
+        text.starts_with("<svg") && text.contains("Misses per face")
+    },
+};
+
+/// What `--manifest` appends to.
+pub(crate) const MANIFEST: SideFile = SideFile {
+    flag: "--manifest",
+    is_own: |start| {
+        const HEAD: &[u8] = b"{\"schema\":";
+        let line = start
+            .split(|&byte| byte == b'\n')
+            .next()
+            .unwrap_or_default();
+        // A run that was killed may have left half of the only line.
+        let is_half = line.len() == start.len();
+        let has_output = line.windows(9).any(|word| word == b"\"output\":");
+        line.starts_with(HEAD) && (is_half || has_output) || is_half && HEAD.starts_with(line)
+    },
+};
+
+impl SideFile {
+    /// Whether `path` may be written: it is free, or of this kind, or `force` says so.
+    pub(crate) fn check(&self, path: &Path, force: bool) -> Result<(), Usage> {
+        let flag = self.flag;
+        let refused = |text: String| Err(Usage(format!("{flag} {}: {text}", path.display())));
+        // Anything else, such as /dev/stdout, holds nothing that could be lost.
+        let is_file = fs::metadata(path).is_ok_and(|data| data.is_file());
+        if !is_file || force {
+            return Ok(());
+        }
+
+        let mut start = Vec::new();
+        let read = fs::File::open(path).and_then(|file| file.take(1 << 16).read_to_end(&mut start));
+        match read {
+            Err(error) => refused(error.to_string()),
+            Ok(_) if start.is_empty() || (self.is_own)(&start) => Ok(()),
+            Ok(_) => refused(format!(
+                "this file is not one that {flag} writes: choose another name, or give --force to \
+                 replace it"
+            )),
+        }
+    }
+
+    /// Whether `path` is none of these meshes of a run; no flag allows that.
+    pub(crate) fn check_no_mesh<'a>(
+        &self,
+        path: &Path,
+        meshes: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<(), Usage> {
+        match meshes.into_iter().any(|name| is_same(name, path)) {
+            true => Err(Usage(format!(
+                "{} {}: this is a mesh of the run: choose another name",
+                self.flag,
+                path.display()
+            ))),
+            false => Ok(()),
+        }
+    }
+}
+
+/// Whether two names are one file, or will be.
+fn is_same(a: &Path, b: &Path) -> bool {
+    let whole = |path: &Path| {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        match (fs::canonicalize(&path), path.parent(), path.file_name()) {
+            (Ok(path), _, _) => path,
+            (Err(_), Some(folder), Some(name)) => {
+                let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+                folder.join(name)
+            }
+            _ => path,
+        }
+    };
+    a == b || whole(a) == whole(b)
+}
