@@ -1,8 +1,8 @@
 //! Which primitives share what, and so which faces and vertices can be moved.
 //!
-//! Records can be moved only together with all that reads them. So a primitive whose data is taken
-//! (see [`byte_users`](super::byte_users)) stays, and primitives that share data are one group with
-//! one vertex order.
+//! Records can be moved only together with all that reads them. So a primitive stays if its corners
+//! are taken (see [`byte_users`](super::byte_users)), and primitives that share data are one group
+//! with one vertex order.
 
 use std::collections::BTreeMap;
 
