@@ -79,21 +79,17 @@ impl MeshEntry {
         let mut new_to_old = Vec::with_capacity(record_count);
         let mut rotations = Vec::new();
         let mut local_of = vec![UNNUMBERED; self.mesh.vertex_count()];
-        let ends = self.runs.iter().skip(1).map(|&start| start as usize);
-        let ends = ends.chain([record_count]);
-        for (&start, end) in self.runs.iter().zip(ends) {
-            let start = start as usize;
-            self.order_run(
-                start..end,
-                &mut local_of,
-                &mut face_order,
-                |record, rotation| {
-                    new_to_old.push(record);
-                    rotations.push(rotation);
-                },
-            );
+        let starts = self.runs.iter().map(|&start| start as usize);
+        let ends = starts.clone().skip(1).chain([record_count]);
+        for (start, end) in starts.zip(ends) {
+            let emit = |record, rotation| {
+                new_to_old.push(record);
+                rotations.push(rotation);
+            };
+            self.order_run(start..end, &mut local_of, &mut face_order, emit);
         }
 
+        // A record that is no triangle is never turned.
         if !turn || rotations.iter().all(|&r| r == 0) {
             rotations.clear();
         }
