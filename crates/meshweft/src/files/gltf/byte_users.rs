@@ -18,17 +18,22 @@ use super::strided_records::StridedRecords;
 /// Honest files have a few pairs for each accessor; only a file made to waste time has millions.
 const MOST_PAIRS: usize = 1 << 24;
 
+/// What a primitive reads records as.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum UsedAs {
+    Indices,
+    Vertices,
+    Outline,
+    SparseIndices,
+    SparseValues,
+}
+
 /// Records of the file and the movable primitives that read them, by their numbers.
 #[derive(Debug)]
 pub(super) struct UsedRecords {
     pub(super) records: StridedRecords,
-    pub(super) index_users: Vec<usize>,
-    pub(super) vertex_users: Vec<usize>,
-    pub(super) outline_users: Vec<usize>,
-    /// Who reads it as the numbers of sparse elements.
-    pub(super) sparse_index_users: Vec<usize>,
-    /// Who reads it as the values of sparse elements.
-    pub(super) sparse_value_users: Vec<usize>,
+    /// The users by [`UsedAs`], rising.
+    users: [Vec<usize>; 5],
     /// As values of sparse elements: the list of their numbers.
     value_indices: Option<StridedRecords>,
     /// The pointer to the first thing found that takes it (or why it is taken), if any does.
@@ -38,43 +43,31 @@ pub(super) struct UsedRecords {
 }
 
 impl UsedRecords {
-    fn kinds(&self) -> [&Vec<usize>; 5] {
-        [
-            &self.index_users,
-            &self.vertex_users,
-            &self.outline_users,
-            &self.sparse_index_users,
-            &self.sparse_value_users,
-        ]
+    /// The primitives that read it as this.
+    pub(super) fn users_as(&self, used_as: UsedAs) -> &[usize] {
+        &self.users[used_as as usize]
     }
 
-    /// Whether all users read it as the same kind of thing.
-    pub(super) fn is_of_one_kind(&self) -> bool {
-        let kinds = self.kinds().into_iter();
-        kinds.filter(|users| !users.is_empty()).count() <= 1
+    /// All users; one that reads it as two things comes twice.
+    pub(super) fn users(&self) -> impl Iterator<Item = usize> {
+        self.users.iter().flatten().copied()
+    }
+
+    /// Whether all users read it as the same thing.
+    pub(super) fn has_one_use(&self) -> bool {
+        self.users.iter().filter(|users| !users.is_empty()).count() <= 1
+    }
+
+    /// Gives each user its new number, and drops those that have none.
+    pub(super) fn renumber_users(&mut self, new_number: &[Option<usize>]) {
+        for users in &mut self.users {
+            *users = users.iter().filter_map(|&user| new_number[user]).collect();
+        }
     }
 
     /// Notes that `by` expects the bytes as they are.
     fn take(&mut self, by: &str) {
         self.taken_by.get_or_insert_with(|| by.to_owned());
-    }
-
-    /// Gives each user its new number, and drops those that have none.
-    pub(super) fn renumber_users(&mut self, new_number: &[Option<usize>]) {
-        for users in [
-            &mut self.index_users,
-            &mut self.vertex_users,
-            &mut self.outline_users,
-            &mut self.sparse_index_users,
-            &mut self.sparse_value_users,
-        ] {
-            *users = users.iter().filter_map(|&user| new_number[user]).collect();
-        }
-    }
-
-    /// All users; one that reads it as two kinds of things comes twice.
-    pub(super) fn users(&self) -> impl Iterator<Item = usize> {
-        self.kinds().into_iter().flatten().copied()
     }
 }
 
@@ -186,35 +179,38 @@ impl Building {
     fn used(&mut self, records: StridedRecords, pointer: &str) -> &mut UsedRecords {
         self.used.entry(records).or_insert_with(|| UsedRecords {
             records,
-            index_users: Vec::new(),
-            vertex_users: Vec::new(),
-            outline_users: Vec::new(),
-            sparse_index_users: Vec::new(),
-            sparse_value_users: Vec::new(),
+            users: Default::default(),
             value_indices: None,
             taken_by: None,
             pointer: pointer.to_owned(),
         })
     }
 
+    /// Adds primitive number `user` to all that it reads.
     fn add_primitive(&mut self, user: usize, primitive: &Movable) {
         let pointer = &primitive.number.pointer();
+        let mut add = |records, used_as| {
+            let used = self.used(records, pointer);
+            used.users[used_as as usize].push(user);
+        };
         if let Some(list) = &primitive.indices {
-            self.used(list.records, pointer).index_users.push(user);
+            add(list.records, UsedAs::Indices);
         }
         if let Some(list) = primitive.outline() {
-            self.used(list.records, pointer).outline_users.push(user);
+            add(list.records, UsedAs::Outline);
         }
         for &records in &primitive.vertices {
-            self.used(records, pointer).vertex_users.push(user);
+            add(records, UsedAs::Vertices);
         }
-        for sparse in primitive.sparse() {
-            let indices = self.used(sparse.indices, pointer);
-            indices.sparse_index_users.push(user);
 
+        for sparse in primitive.sparse() {
+            add(sparse.indices, UsedAs::SparseIndices);
+            add(sparse.values, UsedAs::SparseValues);
+        }
+
+        // Values that go with two lists of numbers would have to move in two ways.
+        for sparse in primitive.sparse() {
             let values = self.used(sparse.values, pointer);
-            values.sparse_value_users.push(user);
-            // Values that go with two lists of numbers would have to move in two ways.
             if *values.value_indices.get_or_insert(sparse.indices) != sparse.indices {
                 values.take(pointer);
             }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::buffers::Buffers;
-use super::byte_users::ByteUsers;
+use super::byte_users::{ByteUsers, UsedAs};
 use super::groups::{group_numbers, vertex_obstacle};
 use super::movable::{IndexList, Movable, PrimitiveNumber};
 use super::object::malformed;
@@ -110,7 +110,7 @@ impl Entries {
     fn add_vertices(&mut self, byte_users: &ByteUsers, group_of: &[usize]) {
         // All primitives that read some records are of one group.
         for used in &byte_users.used {
-            if let Some(&user) = used.vertex_users.first() {
+            if let Some(&user) = used.users_as(UsedAs::Vertices).first() {
                 self.groups[group_of[user]].vertices.push(used.records);
             }
         }

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::byte_users::ByteUsers;
+use super::byte_users::{ByteUsers, UsedAs};
 use super::movable::{Movable, Staying};
 use super::obstacles::VertexObstacle;
 use super::primitives::Primitives;
@@ -106,7 +106,7 @@ fn vertex_readers(movable: &[Movable], byte_users: &ByteUsers) -> Vec<VertexRead
     let sets = set_numbers(movable);
     let readers = byte_users.used.iter().map(|used| {
         let mut readers = VertexReaders::None;
-        for &user in &used.vertex_users {
+        for &user in used.users_as(UsedAs::Vertices) {
             let one = match movable[user].indices {
                 None => VertexReaders::Triples(sets[user]),
                 Some(_) => VertexReaders::Mixed,
@@ -135,7 +135,7 @@ fn entangled_indices(primitive: &Movable, byte_users: &ByteUsers) -> Option<Stri
     if let Some(by) = &used.taken_by {
         return Some(format!("its indices share bytes with {by}"));
     }
-    (!used.is_of_one_kind()).then(|| "its indices are also read as something else".to_owned())
+    (!used.has_one_use()).then(|| "its indices are also read as something else".to_owned())
 }
 
 /// Why the faces of a primitive without indices cannot be re-ordered: others read its vertices.
@@ -150,7 +150,7 @@ fn entangled_triples(
         if let Some(by) = &used.taken_by {
             return Some(format!("its vertices share bytes with {by}"));
         }
-        if !used.is_of_one_kind() || readers[found] == VertexReaders::Mixed {
+        if !used.has_one_use() || readers[found] == VertexReaders::Mixed {
             return Some("its vertices are also read by other primitives".to_owned());
         }
     }
@@ -245,7 +245,7 @@ fn shared_bytes(primitive: &Movable, byte_users: &ByteUsers) -> Option<String> {
         if let Some(by) = &used.taken_by {
             return Some(format!("{shares} bytes with {by}"));
         }
-        if !used.is_of_one_kind() {
+        if !used.has_one_use() {
             return Some(format!("{is} also read as something else"));
         }
     }

@@ -31,6 +31,7 @@
 //! | `Uncommon` | what few movable primitives have: sparse data, outlines, obstacles |
 //! | `Staying` | a primitive that stays as it is, and why |
 //! | `ByteUsers` | all records of the file, each (`UsedRecords`) with those who read it |
+//! | `UsedAs` | what a primitive reads records as: indices, vertices, … |
 //! | `Group` | primitives that share data, and so one vertex order |
 //! | `Corners` | where the corners of a mesh are stored: in a list, or as vertices in a row |
 //! | `Entries` | the meshes that are offered, each with the records of its corners |
