@@ -4,6 +4,7 @@ mod basics;
 mod data;
 mod demo;
 mod many;
+mod nothing_lost;
 
 use std::fs;
 use std::path::{Path, PathBuf};

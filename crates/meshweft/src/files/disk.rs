@@ -101,6 +101,39 @@ pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Stored, FileE
     }
 }
 
+/// What a file in a folder or below holds.
+///
+/// # Errors
+/// As [`read_limited`]; it is no file, such as a pipe, or a link that leads out of the folder.
+pub(super) fn read_below(
+    folder: &Path,
+    relative: &Path,
+    limits: &Limits,
+) -> Result<Stored, FileErrorKind> {
+    let path = folder.join(relative);
+    check_link(&path, folder).map_err(FileErrorKind::Io)?;
+    let is_file = fs::metadata(&path).map_err(FileErrorKind::Io)?.is_file();
+    match is_file {
+        true => read_limited(&path, limits),
+        false => Err(FileErrorKind::Io(io::Error::other("it is not a file"))),
+    }
+}
+
+/// An error if a link at `path`, or on the way from `folder` to it, leads out of the folder.
+fn check_link(path: &Path, folder: &Path) -> io::Result<()> {
+    let (Ok(target), Ok(folder)) = (path.canonicalize(), spelled_out(folder).canonicalize()) else {
+        // What is not there is found out later.
+        return Ok(());
+    };
+    match target.starts_with(&folder) {
+        true => Ok(()),
+        false => Err(io::Error::other(format!(
+            "it is a link out of the folder, to {}: put the file itself there",
+            target.display()
+        ))),
+    }
+}
+
 /// What the names of temporary files end with.
 const TEMPORARY: &str = ".meshweft-tmp";
 
@@ -189,6 +222,12 @@ pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf
         return Ok(Vec::new());
     };
     let is_synced = main.path.exists();
+
+    // Links lead nowhere else.
+    let folder = main.path.parent().unwrap_or(Path::new(""));
+    for file in files {
+        check_link(&file.path, folder).map_err(|error| of(error, &file.path))?;
+    }
 
     // All bytes, under temporary names.
     let mut written = Vec::new();

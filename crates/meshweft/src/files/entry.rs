@@ -1,4 +1,6 @@
-//! A mesh as a file holds it: records that can be moved, and the walls they cannot cross.
+//! A mesh as a file holds it: records that can be moved, each within its run.
+
+use std::ops::Range;
 
 use crate::Mesh;
 use crate::index::index32;
@@ -13,14 +15,14 @@ use crate::permutation::{FaceOrder, Permutation, VertexOrder};
 pub struct MeshEntry {
     /// What the file calls it, or a description of where it stands.
     pub name: String,
-    /// Its connectivity, polygons cut into fans in record order; it has no positions: see
-    /// [`Document::positions`](super::Document::positions).
+    /// Its faces, polygons cut into fans, in record order; without positions, which
+    /// [`Document::positions`](super::Document::positions) gives.
     pub mesh: Mesh,
     /// Where each polygon's faces start in `mesh` (one more entry than records), or `None` where
     /// each record is one triangle.
     pub polygons: Option<Vec<u32>>,
-    /// Records at which a new run starts (material, group, …), rising, the first 0. A record stays
-    /// within its run. Empty if there are no records.
+    /// The first record of each run of one material, group, …: rising, the first 0, and empty if
+    /// there are no records. A record stays within its run.
     pub runs: Vec<u32>,
     /// Meshes with the same number share their vertices: a vertex order for one renumbers all.
     pub vertex_group: usize,
@@ -41,7 +43,7 @@ impl MeshEntry {
     }
 
     /// The faces of `record` in [`mesh`](Self::mesh), as a range.
-    fn faces_of(&self, record: usize) -> std::ops::Range<usize> {
+    fn faces_of(&self, record: usize) -> Range<usize> {
         match &self.polygons {
             Some(starts) => starts[record] as usize..starts[record + 1] as usize,
             None => record..record + 1,
@@ -73,24 +75,21 @@ impl MeshEntry {
             };
         }
 
+        // Order one run after the other.
         let mut new_to_old = Vec::with_capacity(record_count);
         let mut rotations = Vec::new();
-        let mut local_of = vec![u32::MAX; self.mesh.vertex_count()];
-        let ends = self.runs.iter().skip(1).map(|&start| start as usize);
-        let ends = ends.chain([record_count]);
-        for (&start, end) in self.runs.iter().zip(ends) {
-            let start = start as usize;
-            self.order_run(
-                start..end,
-                &mut local_of,
-                &mut face_order,
-                |record, rotation| {
-                    new_to_old.push(record);
-                    rotations.push(rotation);
-                },
-            );
+        let mut local_of = vec![UNNUMBERED; self.mesh.vertex_count()];
+        let starts = self.runs.iter().map(|&start| start as usize);
+        let ends = starts.clone().skip(1).chain([record_count]);
+        for (start, end) in starts.zip(ends) {
+            let emit = |record, rotation| {
+                new_to_old.push(record);
+                rotations.push(rotation);
+            };
+            self.order_run(start..end, &mut local_of, &mut face_order, emit);
         }
 
+        // A record that is no triangle is never turned.
         if !turn || rotations.iter().all(|&r| r == 0) {
             rotations.clear();
         }
@@ -98,9 +97,12 @@ impl MeshEntry {
         FaceOrder::new(permutation, rotations).expect("one rotation below 3 a record")
     }
 
+    /// Passes the records of one run to `emit` in their new order, each with its rotation.
+    ///
+    /// `local_of` is for numbering vertices: all [`UNNUMBERED`], before and after.
     fn order_run(
         &self,
-        run: std::ops::Range<usize>,
+        run: Range<usize>,
         local_of: &mut [u32],
         face_order: &mut impl FnMut(&Mesh, Option<&[u32]>) -> FaceOrder,
         mut emit: impl FnMut(u32, u8),
@@ -109,20 +111,49 @@ impl MeshEntry {
             return emit(index32(run.start), 0);
         }
 
-        // The run as a mesh of its own, its vertices numbered by first use.
+        let RunMesh {
+            mesh,
+            record_of,
+            starts,
+        } = self.run_mesh(run.clone(), local_of);
+        let order = face_order(&mesh, starts.as_deref());
+
+        // A polygon goes where the first of its triangles went.
+        let mut placed = vec![false; run.len()];
+        for (new, &old) in order.new_to_old().iter().enumerate() {
+            let record = record_of[old as usize];
+            let placed = &mut placed[record as usize - run.start];
+            if !std::mem::replace(placed, true) {
+                emit(record, order.rotation(new));
+            }
+        }
+
+        // One without triangles (a point, a line) comes after the others.
+        for (record, placed) in run.zip(placed) {
+            if !placed {
+                emit(index32(record), 0);
+            }
+        }
+    }
+
+    /// A run as a mesh of its own, its vertices numbered by first use.
+    ///
+    /// `local_of` is all [`UNNUMBERED`], before and after.
+    fn run_mesh(&self, run: Range<usize>, local_of: &mut [u32]) -> RunMesh {
         let mut global_of = Vec::new();
         let mut faces = Vec::new();
         let mut record_of = Vec::new();
-        let mut starts = Vec::new();
-        for record in run.clone() {
-            if self.polygons.is_some() && !self.faces_of(record).is_empty() {
+        let mut starts = self.polygons.as_ref().map(|_| Vec::new());
+        for record in run {
+            let faces_of_record = self.faces_of(record);
+            if let Some(starts) = starts.as_mut().filter(|_| !faces_of_record.is_empty()) {
                 starts.push(index32(faces.len()));
             }
-            for face in self.faces_of(record) {
+            for face in faces_of_record {
                 record_of.push(index32(record));
                 faces.push(self.mesh.faces()[face].map(|vertex| {
                     let local = &mut local_of[vertex as usize];
-                    if *local == u32::MAX {
+                    if *local == UNNUMBERED {
                         *local = index32(global_of.len());
                         global_of.push(vertex);
                     }
@@ -130,29 +161,19 @@ impl MeshEntry {
                 }));
             }
         }
-
-        let mesh = Mesh::connectivity_only(global_of.len(), faces).expect("indices are local");
-        starts.push(index32(mesh.face_count()));
-        let order = face_order(&mesh, self.polygons.is_some().then_some(&starts[..]));
-
-        // A polygon goes where the first of its triangles went; one with no triangle (a point, a
-        // line) stays after the others.
-        let mut placed = vec![false; run.len()];
-        for (new, &old) in order.new_to_old().iter().enumerate() {
-            let record = record_of[old as usize];
-            let seen = &mut placed[record as usize - run.start];
-            if !std::mem::replace(seen, true) {
-                emit(record, order.rotation(new));
-            }
-        }
-        for (record, placed) in run.zip(placed) {
-            if !placed {
-                emit(index32(record), 0);
-            }
+        if let Some(starts) = &mut starts {
+            starts.push(index32(faces.len()));
         }
 
-        for vertex in global_of {
-            local_of[vertex as usize] = u32::MAX;
+        // Leave the numbering as it came, at the cost of this run's vertices alone.
+        for &vertex in &global_of {
+            local_of[vertex as usize] = UNNUMBERED;
+        }
+
+        RunMesh {
+            mesh: Mesh::connectivity_only(global_of.len(), faces).expect("indices are local"),
+            record_of,
+            starts,
         }
     }
 
@@ -176,6 +197,8 @@ impl MeshEntry {
             self.mesh = std::mem::take(&mut self.mesh).into_face_order(order);
             return;
         };
+
+        // Move each polygon's faces together.
         let mut faces = Vec::with_capacity(self.mesh.face_count());
         let mut new_starts = Vec::with_capacity(starts.len());
         new_starts.push(0);
@@ -184,6 +207,7 @@ impl MeshEntry {
             faces.extend(starts[old]..starts[old + 1]);
             new_starts.push(index32(faces.len()));
         }
+
         self.polygons = Some(new_starts);
         let faces = Permutation::from_algorithm(faces).into();
         self.mesh = std::mem::take(&mut self.mesh).into_face_order(&faces);
@@ -202,6 +226,18 @@ impl MeshEntry {
         self.mesh = std::mem::take(&mut self.mesh).into_vertex_order(order);
     }
 }
+
+/// A run of records as a mesh of its own.
+struct RunMesh {
+    mesh: Mesh,
+    /// The record that each face is of.
+    record_of: Vec<u32>,
+    /// Where the faces of each polygon start, and the end of the last; `None` without polygons.
+    starts: Option<Vec<u32>>,
+}
+
+/// What a vertex has that no face of the run has named yet.
+const UNNUMBERED: u32 = u32::MAX;
 
 #[cfg(test)]
 mod tests {

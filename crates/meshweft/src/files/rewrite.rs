@@ -1,5 +1,5 @@
-//! Face records on their way to the output: corners turned, vertices renumbered, all else copied; and
-//! records on their way to values.
+//! What a record format has to say of its notation: how to write a face record with its corners
+//! turned and its vertices renumbered, and how to read values from records.
 
 use std::ops::Range;
 
@@ -24,11 +24,11 @@ impl Change<'_> {
         self.rotation == 0 && self.old_to_new.is_empty()
     }
 
-    /// Which of the `count` old corners the new corner `corner` is.
+    /// The old position of the corner that goes to position `corner` of `count`.
     #[inline]
     pub(super) fn turned(&self, corner: usize, count: usize) -> usize {
         let turned = corner + self.rotation;
-        // Without a division for most corners.
+        // Most corners take no division.
         if turned < count {
             turned
         } else {
@@ -40,8 +40,8 @@ impl Change<'_> {
 /// One record on its way to the output, with its corners changed.
 pub(super) struct Rewrite<'a> {
     pub(super) change: Change<'a>,
-    /// Where the corners stand in the record, for formats that have to look for them. There to be
-    /// reused: what it holds at first means nothing.
+    /// Where the corners stand in the record, for formats that have to look for them. Its memory is
+    /// used again for each record; what it holds at first means nothing.
     pub(super) corners: &'a mut Vec<Range<usize>>,
     /// The record is appended to this.
     pub(super) out: &'a mut Vec<u8>,
@@ -50,8 +50,8 @@ pub(super) struct Rewrite<'a> {
 impl Rewrite<'_> {
     /// Appends `record` with its `corners` turned and their vertices renumbered; all else is copied.
     ///
-    /// `vertex_of` gives the vertex that a corner names, and how many bytes its number takes at the
-    /// start of the corner. `first` is the number that the file has for vertex 0.
+    /// `vertex_of` gives the vertex that a corner names (`None` for none), and how many bytes its
+    /// number takes at the start of the corner. `first` is what the file calls vertex 0.
     #[inline]
     pub(super) fn write_corners(
         self,
@@ -66,15 +66,19 @@ impl Rewrite<'_> {
         } = self;
         let mut copied = 0;
         for (position, slot) in corners.iter().enumerate() {
+            debug_assert!(copied <= slot.start, "corners overlap");
             out.extend_from_slice(&record[copied..slot.start]);
             copied = slot.end;
 
             let turned = change.turned(position, corners.len());
             let corner = &record[corners[turned].clone()];
+
+            // A corner whose vertex keeps its number is copied as it is spelled.
             let renumbered = vertex_of(corner).and_then(|(old, length)| {
                 let new = *change.old_to_new.get(old)?;
                 (new as usize != old).then_some((u64::from(new), length))
             });
+
             match renumbered {
                 Some((new, length)) => {
                     push_number(out, new + first);
@@ -95,7 +99,7 @@ pub(super) fn vertex_from_zero(corner: &[u8]) -> Option<(usize, usize)> {
     Some((usize::try_from(number).ok()?, length))
 }
 
-/// Where the records of a mesh stand, and the orders they were put in.
+/// The records of a mesh as the file has them, and the orders that were applied since.
 pub(super) struct StoredMesh<'a> {
     pub(super) source: &'a [u8],
     pub(super) vertices: &'a Spans,
@@ -104,18 +108,20 @@ pub(super) struct StoredMesh<'a> {
     pub(super) orders: &'a RecordOrders,
 }
 
-/// A face record where it now is.
+/// A face record of the file, as the orders leave it.
 pub(super) struct PlacedFace {
     /// Its number in the file.
     pub(super) record: usize,
+    /// Where it stands in the file.
     pub(super) span: Range<usize>,
     /// How far its corners are turned.
     pub(super) rotation: usize,
+    /// How many faces of the mesh it is cut into.
     pub(super) face_count: usize,
 }
 
 impl StoredMesh<'_> {
-    /// The number in the file of each vertex and where it stands, in the order in which they now are.
+    /// The vertices in their new order: the number of each in the file, and where it stands there.
     pub(super) fn vertices(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
         (0..self.vertices.len()).map(|vertex| {
             let record = record_in(&self.orders.vertices, vertex);
@@ -123,7 +129,7 @@ impl StoredMesh<'_> {
         })
     }
 
-    /// The face records, in the order in which they now are.
+    /// The face records in their new order.
     pub(super) fn faces(&self) -> impl Iterator<Item = PlacedFace> {
         (0..self.faces.len()).map(|slot| {
             let record = record_in(&self.orders.records, slot);
@@ -140,8 +146,8 @@ impl StoredMesh<'_> {
     }
 }
 
-/// The corners of the faces of a record with `count` corners, three a face, as numbers of the
-/// corners that the file has.
+/// The corners of the faces that a record with `count` corners is cut into, three a face, each as its
+/// position in the file's record.
 pub(super) fn fan(count: usize, rotation: usize) -> impl Iterator<Item = usize> {
     let change = Change {
         rotation,
@@ -151,7 +157,7 @@ pub(super) fn fan(count: usize, rotation: usize) -> impl Iterator<Item = usize> 
     corners.map(move |corner| change.turned(corner, count))
 }
 
-/// How a format writes the corners of a face record, and reads what is stored in records.
+/// How a format writes the corners of a face record, and reads the values stored in records.
 pub(super) trait Notation: Send + Sync {
     /// Appends a face record with its corners changed.
     fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>);

@@ -6,24 +6,25 @@ use super::error::FileErrorKind;
 
 /// Where the records of one kind stand, in rising order.
 ///
-/// Records that follow each other without a gap and have one length (the rows of most binary
-/// files) take no memory.
+/// Records that touch and have one length (the rows of most binary files) take no memory.
 #[derive(Debug, Clone)]
 pub(super) struct Spans {
-    first: usize,
-    stride: usize,
     count: usize,
-    /// Once a record broke the rule: where each starts, and how long it is.
-    each: Option<(Vec<usize>, Vec<u32>)>,
+    /// Where the first record starts.
+    first: usize,
+    /// The length of every record while all touch and have one length.
+    length: usize,
+    /// Once a record breaks this rule: where every record starts, and how long it is.
+    uneven: Option<(Vec<usize>, Vec<u32>)>,
 }
 
 impl Spans {
     pub(super) fn new() -> Self {
         Self {
-            first: 0,
-            stride: 0,
             count: 0,
-            each: None,
+            first: 0,
+            length: 0,
+            uneven: None,
         }
     }
 
@@ -42,24 +43,29 @@ impl Spans {
             found: span.len() as u64,
             limit: u64::from(u32::MAX),
         })?;
-        if let Some((starts, lengths)) = &mut self.each {
+
+        if let Some((starts, lengths)) = &mut self.uneven {
             starts.push(span.start);
             lengths.push(length);
         } else if self.count == 0 {
-            (self.first, self.stride) = (span.start, span.len());
-        } else if span.len() != self.stride || span.start != self.first + self.count * self.stride {
-            let mut starts: Vec<usize> = (0..self.count)
-                .map(|i| self.first + i * self.stride)
-                .collect();
-            // The earlier records were as long as the first, whose length fitted.
-            let earlier = u32::try_from(self.stride).unwrap_or(u32::MAX);
-            let mut lengths = vec![earlier; self.count];
-            starts.push(span.start);
+            (self.first, self.length) = (span.start, span.len());
+        } else if (span.start, span.len()) != (self.even_start(self.count), self.length) {
+            // The rule breaks here: from now on each record is listed.
+            let starts = (0..self.count).map(|record| self.even_start(record));
+            let starts = starts.chain([span.start]).collect();
+            let even = u32::try_from(self.length).expect("checked when it was added");
+            let mut lengths = vec![even; self.count];
             lengths.push(length);
-            self.each = Some((starts, lengths));
+            self.uneven = Some((starts, lengths));
         }
         self.count += 1;
         Ok(())
+    }
+
+    /// Where a record starts while all touch and have one length.
+    #[inline]
+    fn even_start(&self, record: usize) -> usize {
+        self.first + record * self.length
     }
 
     /// Adds `count` records of `length` bytes, side by side from `start` on.
@@ -76,28 +82,31 @@ impl Spans {
             return Ok(());
         };
         self.push(start..start + length)?;
+
+        // All have one length so far, and so will the rest.
         if self.even_length() == Some(length) {
             self.count += more;
             return Ok(());
         }
+
         (1..count).try_for_each(|i| self.push(start + i * length..start + (i + 1) * length))
     }
 
-    /// The length of every record, if all have one and stand side by side.
+    /// The length of every record, if all have one and touch; 0 if there are none.
     pub(super) fn even_length(&self) -> Option<usize> {
-        self.each.is_none().then_some(self.stride)
+        self.uneven.is_none().then_some(self.length)
     }
 
     #[inline]
     pub(super) fn span(&self, record: usize) -> Range<usize> {
-        let (start, length) = match &self.each {
+        let (start, length) = match &self.uneven {
             Some((starts, lengths)) => (starts[record], lengths[record] as usize),
-            None => (self.first + record * self.stride, self.stride),
+            None => (self.even_start(record), self.length),
         };
         start..start + length
     }
 
-    /// Where record `record` starts; past every byte if there is none.
+    /// Where a record starts; `usize::MAX` if there is no such record.
     #[inline]
     pub(super) fn start(&self, record: usize) -> usize {
         match record < self.count {
@@ -117,10 +126,10 @@ mod tests {
         for span in [10..13, 13..16, 16..19] {
             spans.push(span).unwrap();
         }
-        assert!(spans.each.is_none());
+        assert!(spans.uneven.is_none());
         assert_eq!(spans.span(2), 16..19);
         spans.push(20..23).unwrap();
-        assert!(spans.each.is_some());
+        assert!(spans.uneven.is_some());
         let all: Vec<Range<usize>> = (0..spans.len()).map(|i| spans.span(i)).collect();
         assert_eq!(all, [10..13, 13..16, 16..19, 20..23]);
     }

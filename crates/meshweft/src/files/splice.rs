@@ -1,4 +1,4 @@
-//! Bytes copied one for one, with records permuted among their places.
+//! Copies a file with its records permuted among their places.
 //!
 //! A *slot* is where a record stands. Whatever is between the slots (line ends, comments, headers,
 //! elements that are not understood) is copied; into each slot goes the record that the order puts
@@ -10,12 +10,16 @@ use std::ops::Range;
 use super::orders::record_in;
 use super::slots::Spans;
 
-/// Appends what goes into slots that stand side by side, given by their numbers.
+/// Bytes to gather before they are written.
+const PIECE: usize = 1 << 18;
+
+/// Appends the new content of neighbouring slots, given by their numbers.
 type WriteSlots<'a> = dyn FnMut(Range<usize>, &mut Vec<u8>) + 'a;
 
 /// The slots of one kind of record, and what goes into each.
 pub(super) struct Layer<'a> {
     slots: &'a Spans,
+    /// The first slot that is not yet filled.
     next: usize,
     write: Box<WriteSlots<'a>>,
 }
@@ -32,7 +36,7 @@ impl<'a> Layer<'a> {
         }
     }
 
-    /// Each slot gets the record of `source` that `order` says.
+    /// A layer that fills slot `i` with record `order[i]` of `source`.
     pub(super) fn moved(slots: &'a Spans, source: &'a [u8], order: &'a [u32]) -> Self {
         Self::new(slots, move |numbers, out| {
             for slot in numbers {
@@ -41,69 +45,61 @@ impl<'a> Layer<'a> {
         })
     }
 
-    /// How many slots from the next one on can be filled at once.
-    fn batch(&self) -> usize {
-        let left = self.slots.len() - self.next;
-        match self.slots.even_length() {
-            Some(length) => left.min(PIECE / length.max(1)).max(1),
-            None => 1,
-        }
-    }
-
+    /// Where the next slot starts; `usize::MAX` after the last.
     fn next_start(&self) -> usize {
         self.slots.start(self.next)
     }
+
+    /// The next slots that can be filled in one call: they touch, and are about a piece at most.
+    fn next_batch(&self) -> Range<usize> {
+        let left = self.slots.len() - self.next;
+        let count = match self.slots.even_length() {
+            Some(length) => left.min(PIECE / length.max(1)).max(1),
+            None => 1,
+        };
+        self.next..self.next + count
+    }
 }
 
-/// Bytes that are gathered before they are written.
-const PIECE: usize = 1 << 18;
-
-/// Writes the bytes `range` of the source, in which all slots are, with each slot filled again. Slots do
-/// not overlap.
+/// Writes the bytes `range` of `source`, with the slots of all layers filled anew.
+///
+/// Slots lie within `range` and do not overlap, within a layer or between two.
 pub(super) fn splice(
     source: &[u8],
     range: Range<usize>,
     mut layers: Vec<Layer<'_>>,
     sink: &mut dyn io::Write,
 ) -> io::Result<()> {
-    let mut out = Vec::with_capacity((PIECE + PIECE / 4).min(range.len() * 2));
+    // A first guess: a batch may overshoot the piece, and the numbers in a small file may get longer.
+    let capacity = (PIECE + PIECE / 4).min(range.len() * 2);
+    let mut out = Vec::with_capacity(capacity);
     let mut copied = range.start;
-    loop {
-        // Slots come in long stretches of one kind: find the layer whose turn it is, and stay with
-        // it until another one's next slot comes first.
-        let starts = layers.iter().map(Layer::next_start).enumerate();
-        let Some((turn, start)) = starts.min_by_key(|&(_, start)| start) else {
-            break;
-        };
-        if start == usize::MAX {
-            break;
-        }
-        let others = layers
-            .iter()
-            .enumerate()
-            .filter(|&(other, _)| other != turn);
-        let until = others.map(|(_, layer)| layer.next_start()).min();
-        let until = until.unwrap_or(usize::MAX);
 
-        let layer = &mut layers[turn];
+    // Slots come in long stretches of one kind: stay with a layer until another one's turn comes.
+    while let Some((layer, until)) = next_turn(&mut layers) {
         while layer.next < layer.slots.len() {
-            let slot = layer.slots.span(layer.next);
-            if slot.start > until {
+            let start = layer.next_start();
+            if start > until {
                 break;
             }
-            if slot.start - copied > PIECE {
+            debug_assert!(copied <= start, "slots overlap");
+
+            // Copy what stands before the slot; long gaps go straight to the sink.
+            let gap = &source[copied..start];
+            if gap.len() > PIECE {
                 sink.write_all(&out)?;
                 out.clear();
-                sink.write_all(&source[copied..slot.start])?;
+                sink.write_all(gap)?;
             } else {
-                out.extend_from_slice(&source[copied..slot.start]);
+                out.extend_from_slice(gap);
             }
 
-            // As many slots as can be filled at once: they touch, so nothing else stands between.
-            let batch = layer.next..layer.next + layer.batch();
+            // Fill as many slots as touch.
+            let batch = layer.next_batch();
             layer.next = batch.end;
             copied = layer.slots.span(batch.end - 1).end;
             (layer.write)(batch, &mut out);
+
             if out.len() >= PIECE {
                 sink.write_all(&out)?;
                 out.clear();
@@ -111,8 +107,24 @@ pub(super) fn splice(
         }
     }
 
+    debug_assert!(copied <= range.end, "slots reach past the range");
     sink.write_all(&out)?;
     sink.write_all(&source[copied..range.end])
+}
+
+/// The layer whose next slot comes first, and where the next slot of any other starts; `None` once
+/// all slots are filled.
+fn next_turn<'l, 'a>(layers: &'l mut [Layer<'a>]) -> Option<(&'l mut Layer<'a>, usize)> {
+    let starts = layers.iter().map(Layer::next_start).enumerate();
+    let (turn, start) = starts.min_by_key(|&(_, start)| start)?;
+    if start == usize::MAX {
+        return None;
+    }
+
+    let others = layers.iter().enumerate();
+    let others = others.filter(|&(other, _)| other != turn);
+    let until = others.map(|(_, layer)| layer.next_start()).min();
+    Some((&mut layers[turn], until.unwrap_or(usize::MAX)))
 }
 
 #[cfg(test)]

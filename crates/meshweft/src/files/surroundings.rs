@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
-use super::disk::{Stored, read_limited};
+use super::disk::{Stored, read_below};
 use super::error::FileErrorKind;
 use crate::limits::Limits;
 
@@ -49,7 +49,7 @@ pub enum Surroundings<'a> {
     #[default]
     Nothing,
     /// A folder of the disk, the one that the document stands in. A name that ends in `.gz` is
-    /// decompressed.
+    /// decompressed. Links are followed within the folder only, and nothing but files is read.
     Folder(&'a Path),
     /// Files in memory, by their paths from the folder of the document. They are taken as they are,
     /// whatever their names end with. Nothing is looked for on a disk.
@@ -75,7 +75,7 @@ impl<'a> Surroundings<'a> {
         };
         match self {
             Self::Nothing => absent("the document was given without surroundings"),
-            Self::Folder(folder) => read_limited(&folder.join(relative), limits),
+            Self::Folder(folder) => read_below(folder, relative, limits),
             Self::Memory(files) => {
                 let Some(bytes) = files.get(relative) else {
                     return absent("it is not among the files in memory");

@@ -409,7 +409,7 @@ fn a_mesh_with_an_extension_of_our_own_stays_until_it_is_known() {
             "{note}"
         );
         assert!(
-            note.contains("take the version of meshweft that wrote it"),
+            note.contains("use the version of meshweft that wrote it"),
             "{note}"
         );
 

@@ -12,6 +12,7 @@ mod data_folder;
 #[path = "../files_errors/mod.rs"]
 mod errors;
 mod moves;
+mod nothing_lost;
 mod output;
 mod reader;
 mod surroundings;

@@ -314,8 +314,8 @@ fn vertices_stay_where_something_else_counts_on_them() {
             |builder, _, _| builder.views[0]["extensions"] = json!({"FANCY_numbers": {}}),
         ),
         (
-            "/meshes/0/primitives/0: the vertices stay where they are: EXT_mesh_features takes \
-             their numbers as identities",
+            "/meshes/0/primitives/0: the vertices stay where they are: EXT_mesh_features \
+             identifies features by their numbers",
             |_, primitive, _| {
                 primitive["extensions"] =
                     json!({"EXT_mesh_features": {"featureIds": [{"featureCount": 20}]}});
@@ -474,7 +474,7 @@ fn primitives_are_left_where_faces_cannot_move() {
             },
         ),
         (
-            "FB_ngon_encoding keeps polygons as runs of triangles",
+            "FB_ngon_encoding stores polygons as runs of triangles",
             |_, primitive, _| primitive["extensions"] = json!({"FB_ngon_encoding": {}}),
         ),
         ("35 indices are not three a face", |builder, _, _| {

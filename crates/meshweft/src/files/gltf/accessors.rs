@@ -1,4 +1,4 @@
-//! Accessors and buffer views as records of fixed size in a storage, every bound checked.
+//! Accessors as records of fixed size in a storage, every bound checked.
 
 use std::borrow::Cow;
 
@@ -11,27 +11,28 @@ use crate::files::error::Problem;
 /// An accessor, its bounds checked.
 #[derive(Debug, Clone)]
 pub(super) struct Accessor {
-    /// The pointer to it.
+    /// The JSON pointer to it.
     pub(super) pointer: String,
     /// The bytes of one element.
     pub(super) size: usize,
-    /// The bytes from one element to the next where nothing says another distance.
+    /// The bytes from one element to the next where its buffer view has no `byteStride`.
     pub(super) tight_stride: usize,
-    /// Its records; `None` where it has none and stands for zeros.
+    /// Its records; `None` where it has no buffer view, and so stands for zeros, or is compressed.
     pub(super) records: Option<StridedRecords>,
+    /// The type of its components, by its number in the file.
     pub(super) component: usize,
     pub(super) shape: Shape,
     pub(super) count: usize,
     pub(super) is_sparse: bool,
-    /// Its buffer view is compressed: the bytes are not records.
+    /// Its buffer view is compressed: the bytes are no records.
     pub(super) is_compressed: bool,
     /// The JSON states its smallest and largest values.
     pub(super) is_bounded: bool,
-    /// Its buffer view has a stride that is not its element size.
+    /// Its buffer view states a stride that is not its element size.
     pub(super) is_strided: bool,
-    /// An extension on it, its view or its buffer that is not known here.
+    /// The first extension on it, its view or its buffer that is not known.
     pub(super) unknown_extension: Option<String>,
-    /// Why its bytes must stay.
+    /// Why its storage must stay as it is, if so.
     pub(super) fixed: Option<&'static str>,
 }
 
@@ -42,12 +43,13 @@ impl Accessor {
             && [UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT].contains(&self.component)
     }
 
+    /// Notes an extension that is not known, unless there already is one.
     fn add_unknown(&mut self, extension: Option<String>) {
         self.unknown_extension = self.unknown_extension.take().or(extension);
     }
 }
 
-/// The component types by their number in the file.
+/// The component types, by their numbers in the file.
 pub(super) const BYTE: usize = 5120;
 pub(super) const UNSIGNED_BYTE: usize = 5121;
 pub(super) const SHORT: usize = 5122;
@@ -56,6 +58,8 @@ pub(super) const INT: usize = 5124;
 pub(super) const UNSIGNED_INT: usize = 5125;
 pub(super) const FLOAT: usize = 5126;
 pub(super) const DOUBLE: usize = 5130;
+const INT64: usize = 5134;
+const UNSIGNED_INT64: usize = 5135;
 
 /// Columns and rows of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,7 +88,8 @@ impl Shape {
         Some(Self { columns, rows })
     }
 
-    /// The bytes from one column to the next, and of a whole element, of components of `width` bytes.
+    /// The bytes from one column to the next and those of a whole element, with components of `width`
+    /// bytes.
     pub(super) fn sizes(self, width: usize) -> (usize, usize) {
         let tight = self.rows * width;
         // Each column of a matrix starts at a multiple of four bytes.
@@ -175,7 +180,7 @@ impl<'a> Accessors<'a> {
             SHORT | UNSIGNED_SHORT => 2,
             INT | UNSIGNED_INT | FLOAT => 4,
             // 64-bit components come with an extension; their size is all that counts here.
-            DOUBLE | 5134 | 5135 => 8,
+            DOUBLE | INT64 | UNSIGNED_INT64 => 8,
             other => {
                 return Err(object.problem(format!("there is no component type {other}")));
             }
@@ -203,13 +208,14 @@ impl<'a> Accessors<'a> {
             pointer: object.pointer().to_owned(),
         };
         if let Some(view) = object.number("bufferView")? {
-            self.place(&mut accessor, &object, view)?;
+            self.find_records(&mut accessor, &object, view)?;
         }
         Ok(accessor)
     }
 
-    /// Finds the records of an accessor in its buffer view.
-    fn place(
+    /// Finds the records of an accessor in buffer view `number`, with what their view and buffer say of
+    /// them; `object` is the accessor's JSON.
+    fn find_records(
         &self,
         accessor: &mut Accessor,
         object: &Object,
@@ -229,14 +235,15 @@ impl<'a> Accessors<'a> {
             return Ok(());
         }
 
+        // Where the view stands, and what may keep its bytes.
         let (storage, view_start, view_length) = self.view_bytes(&view)?;
         let buffer = view.required_number("buffer")?;
         let buffer = Object::new(self.buffer_values[buffer], format!("/buffers/{buffer}"))?;
         accessor.add_unknown(self.unknown_of(buffer.extensions()?));
         accessor.fixed = self.fixed(storage);
 
+        // How far apart its elements stand; some exporters write a stride of 0 for "none".
         let size = accessor.size;
-        // Some exporters write a stride of 0 for "none".
         let stride = view.number("byteStride")?.filter(|&stride| stride != 0);
         accessor.is_strided = stride.is_some_and(|stride| stride != size);
         let stride = stride.unwrap_or(accessor.tight_stride);
@@ -247,32 +254,25 @@ impl<'a> Accessors<'a> {
             )));
         }
 
-        let length = match accessor.count.checked_sub(1) {
-            Some(last) => last.checked_mul(stride).and_then(|n| n.checked_add(size)),
-            None => Some(0),
-        };
+        // All elements stand within the view.
+        let count = accessor.count;
+        let length = StridedRecords::length(count, stride, size);
         let end = length.and_then(|length| length.checked_add(offset));
         if end.is_none_or(|end| end > view_length) {
             return Err(object.problem(format!(
-                "{} elements of {size} bytes from byte {offset} on reach past the {view_length} \
-                 bytes of buffer view {number}",
-                accessor.count
+                "{count} elements of {size} bytes from byte {offset} on reach past the \
+                 {view_length} bytes of buffer view {number}"
             )));
         }
 
-        accessor.records = Some(StridedRecords {
-            storage,
-            start: view_start + offset,
-            count: accessor.count,
-            // With one record the distance to the next means nothing.
-            stride: if accessor.count > 1 { stride } else { size },
-            size,
-        });
+        let start = view_start + offset;
+        accessor.records = Some(StridedRecords::new(storage, start, count, stride, size));
         Ok(())
     }
 
     /// The storage, start and length of a buffer view.
     fn view_bytes(&self, view: &Object) -> Result<(usize, usize, usize), Problem> {
+        // The buffer has all bytes that it promises.
         let number = view.required_number("buffer")?;
         let storage = self.buffers.storage_of(number, view.pointer().to_owned())?;
         let buffer = Object::new(self.buffer_values[number], format!("/buffers/{number}"))?;
@@ -283,6 +283,8 @@ impl<'a> Accessors<'a> {
                 "byteLength is {promised}, but only {found} bytes are there: the buffer is cut off"
             )));
         }
+
+        // The view stands within them.
         let start = view.number("byteOffset")?.unwrap_or(0);
         let length = view.required_number("byteLength")?;
         match start.checked_add(length).filter(|&end| end <= promised) {
@@ -294,8 +296,8 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// The bytes of a buffer view (or of a compressed one's source) from `offset` on, `length` or
-    /// all of them, as far as they are there: for what is only kept out of the way.
+    /// The bytes of a buffer view (or of a compressed one's source) from `offset` on, `length` or all
+    /// of them, as one record. What is wrong is no error: bytes that are not there are left out.
     pub(super) fn bytes_of_view(
         &self,
         view: Value<'_>,
@@ -307,19 +309,16 @@ impl<'a> Accessors<'a> {
         let stored = self.buffers.storages[storage].bytes.len();
         let view_start = field("byteOffset").unwrap_or(0);
         let view_end = view_start.saturating_add(field("byteLength").unwrap_or(usize::MAX));
+
         let start = view_start.saturating_add(offset).min(stored);
         let size = view_end.min(stored).saturating_sub(start);
         let size = length.map_or(size, |length| length.min(size));
-        Some(StridedRecords {
-            storage,
-            start,
-            count: usize::from(size > 0),
-            stride: size,
-            size,
-        })
+        let count = usize::from(size > 0);
+        Some(StridedRecords::new(storage, start, count, size, size))
     }
 }
 
+/// Element `number` of an array of things called `what`; `user` is the pointer to what names it.
 fn element<'a>(
     values: &[Value<'a>],
     what: &str,

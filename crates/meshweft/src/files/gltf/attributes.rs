@@ -1,4 +1,4 @@
-//! The attributes of the meshes: which there are, and their values when they are asked for.
+//! The attributes of the meshes: which there are, and their values on request.
 //!
 //! A file can have very many meshes, so what is kept is small: where each name stands in the JSON,
 //! and every accessor once.
@@ -17,14 +17,15 @@ use crate::index::index32;
 
 /// What is stored with the vertices of each mesh.
 ///
-/// Primitives that share an index accessor are one mesh. Its attributes are those of the first of
-/// them; where another one names other accessors, these are not listed.
+/// Primitives that share an index accessor are one mesh. It has the attributes of the first of them;
+/// accessors that only the others name are not listed.
 #[derive(Debug)]
 pub(super) struct Attributes {
+    /// The attributes of all meshes, one mesh after the other.
     named: Vec<NamedElements>,
     /// Where in `named` those of each mesh start, and the end of the last.
     starts: Vec<usize>,
-    /// What they name, each accessor once.
+    /// What accessors hold, each accessor once.
     elements: Vec<Elements>,
 }
 
@@ -34,14 +35,14 @@ struct NamedElements {
     /// Where its name starts in the JSON.
     name: u32,
     morph_target: Option<u32>,
-    /// The number of its elements.
+    /// Which of [`Attributes::elements`] it has.
     elements: u32,
 }
 
 impl Attributes {
-    /// Those of these primitives, one a mesh; they rise.
+    /// Those of `primitives`, which rise, one a mesh.
     ///
-    /// What cannot be read is left out: 64-bit integers.
+    /// What [`Elements::of`] cannot read is left out.
     ///
     /// # Complexity
     /// Time O(JSON + sparse elements), space 16 bytes an attribute and about 100 an accessor.
@@ -58,6 +59,8 @@ impl Attributes {
             },
             number_of: BTreeMap::new(),
         };
+
+        // Walk through the file once, and take each primitive as it comes.
         let mut wanted = primitives.iter().peekable();
         for (mesh, value) in (0_u32..).zip(elements_of(root.value("meshes"))) {
             if wanted.peek().is_none_or(|next| next.mesh != mesh) {
@@ -70,6 +73,10 @@ impl Attributes {
                 }
             }
         }
+        debug_assert!(
+            wanted.next().is_none(),
+            "a primitive is missing or out of order"
+        );
         collected.attributes
     }
 
@@ -91,7 +98,7 @@ impl Attributes {
         vertex_count: usize,
         buffers: &Buffers,
     ) -> Result<Attribute, Problem> {
-        // Of two members with one name the last counts.
+        // Of two members with the same name the last counts.
         let mut named = self.named_of(mesh).iter().rev();
         let found = named.find(|named| {
             named.morph_target == info.morph_target && self.info(named, json) == *info
@@ -99,7 +106,7 @@ impl Attributes {
         let Some(found) = found else {
             return Err(no_attribute(info));
         };
-        let values = self.elements_of(found).values(buffers, vertex_count)?;
+        let values = self.stored(found).values(buffers, vertex_count)?;
         Ok(Attribute::new(info.clone(), values))
     }
 
@@ -107,12 +114,12 @@ impl Attributes {
         &self.named[self.starts[mesh]..self.starts[mesh + 1]]
     }
 
-    fn elements_of(&self, named: &NamedElements) -> &Elements {
+    fn stored(&self, named: &NamedElements) -> &Elements {
         &self.elements[named.elements as usize]
     }
 
     fn info(&self, named: &NamedElements, json: &[u8]) -> AttributeInfo {
-        let elements = self.elements_of(named);
+        let elements = self.stored(named);
         let name = string_at(json, named.name as usize).unwrap_or_default();
         let mut info = AttributeInfo::new(
             semantic(&name),
@@ -129,12 +136,12 @@ impl Attributes {
 /// [`Attributes`] while they are collected.
 struct Collected {
     attributes: Attributes,
-    /// The number of the elements of each accessor that was looked at, if it can be read.
+    /// For each accessor that was looked at, which of the elements it has, if it can be read.
     number_of: BTreeMap<usize, Option<u32>>,
 }
 
 impl Collected {
-    /// Adds a mesh with what its primitive names.
+    /// Adds a mesh with the attributes of its primitive.
     fn add_mesh(&mut self, primitive: Value<'_>, accessors: &Accessors) {
         self.add_set(primitive.get("attributes"), None, accessors);
         for (target, set) in (0_u32..).zip(elements_of(primitive.get("targets"))) {
@@ -155,22 +162,23 @@ impl Collected {
             let Some(accessor) = accessor.whole() else {
                 continue;
             };
+
             let elements = &mut self.attributes.elements;
             let number = *self.number_of.entry(accessor).or_insert_with(|| {
                 elements.push(Elements::of(accessors, accessor)?);
                 Some(index32(elements.len() - 1))
             });
-            self.attributes
-                .named
-                .extend(number.map(|elements| NamedElements {
-                    name: name.start(),
-                    morph_target,
-                    elements,
-                }));
+            let named = number.map(|elements| NamedElements {
+                name: name.start(),
+                morph_target,
+                elements,
+            });
+            self.attributes.named.extend(named);
         }
     }
 }
 
+/// The elements of a JSON array; none if there is no array.
 fn elements_of(array: Option<Value<'_>>) -> impl Iterator<Item = Value<'_>> {
     array.into_iter().flat_map(Value::elements)
 }
@@ -188,7 +196,7 @@ fn semantic(name: &str) -> Semantic {
             .or_else(|| set("JOINTS_").map(Semantic::Joints))
             .or_else(|| set("WEIGHTS_").map(Semantic::Weights)),
     };
-    // `COLOR_01` and `COLOR_+1` are other names than `COLOR_1`.
+    // Numbers spelled otherwise make other names: `COLOR_01` and `COLOR_+1` are not `COLOR_1`.
     let known = known.filter(|semantic| semantic.to_string() == name);
     known.unwrap_or_else(|| Semantic::Other(name.to_owned()))
 }

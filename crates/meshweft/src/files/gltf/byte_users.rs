@@ -1,4 +1,8 @@
-//! Who reads which bytes: records are moved only if nobody else looks at them.
+//! Who reads which bytes: records are moved only if all who read them move alike.
+//!
+//! Movable primitives are the *users* of records. Records are *taken* where something else reads any
+//! of their bytes, and so expects them as they are: animations, images, primitives that stay,
+//! accessors that an unknown extension may read, other records that overlap.
 
 use std::collections::BTreeMap;
 
@@ -9,71 +13,68 @@ use super::object::Object;
 use super::primitives::Primitives;
 use super::strided_records::StridedRecords;
 
-/// How many pairs of overlapping ranges are looked at before all are taken to be in conflict.
+/// How many pairs of records with overlapping ranges are compared before all records are taken.
 ///
 /// Honest files have a few pairs for each accessor; only a file made to waste time has millions.
 const MOST_PAIRS: usize = 1 << 24;
 
-/// Records of the file and the movable primitives that read them.
+/// What a primitive reads records as.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum UsedAs {
+    Indices,
+    Vertices,
+    Outline,
+    SparseIndices,
+    SparseValues,
+}
+
+/// Records of the file and the movable primitives that read them, by their numbers.
 #[derive(Debug)]
 pub(super) struct UsedRecords {
     pub(super) records: StridedRecords,
-    pub(super) index_users: Vec<usize>,
-    pub(super) vertex_users: Vec<usize>,
-    pub(super) outline_users: Vec<usize>,
-    /// Who reads it as the numbers of sparse elements.
-    pub(super) sparse_index_users: Vec<usize>,
-    /// Who reads it as the values of sparse elements.
-    pub(super) sparse_value_users: Vec<usize>,
-    /// The numbers that these values go with.
+    /// The users by [`UsedAs`], rising.
+    users: [Vec<usize>; 5],
+    /// As values of sparse elements: the list of their numbers.
     value_indices: Option<StridedRecords>,
-    /// The pointer to something else that reads some of the bytes.
+    /// The pointer to the first thing found that takes it (or why it is taken), if any does.
     pub(super) taken_by: Option<String>,
-    /// The pointer to the first that reads it, for others' `taken_by`.
+    /// The pointer to the first that reads it, for the `taken_by` of records that overlap it.
     pointer: String,
 }
 
 impl UsedRecords {
-    fn kinds(&self) -> [&Vec<usize>; 5] {
-        [
-            &self.index_users,
-            &self.vertex_users,
-            &self.outline_users,
-            &self.sparse_index_users,
-            &self.sparse_value_users,
-        ]
+    /// The primitives that read it as this.
+    pub(super) fn users_as(&self, used_as: UsedAs) -> &[usize] {
+        &self.users[used_as as usize]
     }
 
-    /// Whether it is read as one kind of thing only.
-    pub(super) fn is_of_one_kind(&self) -> bool {
-        self.kinds()
-            .iter()
-            .filter(|users| !users.is_empty())
-            .count()
-            <= 1
+    /// All users; one that reads it as two things comes twice.
+    pub(super) fn users(&self) -> impl Iterator<Item = usize> {
+        self.users.iter().flatten().copied()
     }
 
-    /// Renames the users by `new_number`, and leaves out those that have none.
+    /// Whether all users read it as the same thing.
+    pub(super) fn has_one_use(&self) -> bool {
+        self.users.iter().filter(|users| !users.is_empty()).count() <= 1
+    }
+
+    /// Gives each user its new number, and drops those that have none.
     pub(super) fn renumber_users(&mut self, new_number: &[Option<usize>]) {
-        for users in [
-            &mut self.index_users,
-            &mut self.vertex_users,
-            &mut self.outline_users,
-            &mut self.sparse_index_users,
-            &mut self.sparse_value_users,
-        ] {
+        for users in &mut self.users {
             *users = users.iter().filter_map(|&user| new_number[user]).collect();
         }
     }
 
-    pub(super) fn users(&self) -> impl Iterator<Item = usize> {
-        self.kinds().into_iter().flatten().copied()
+    /// Notes that `by` expects the bytes as they are.
+    fn take(&mut self, by: &str) {
+        self.taken_by.get_or_insert_with(|| by.to_owned());
     }
 }
 
-/// All records of the file, rising, and who reads them.
+/// All records that are read, and who reads them.
 #[derive(Debug)]
 pub(super) struct ByteUsers {
+    /// Rising by their records.
     pub(super) used: Vec<UsedRecords>,
 }
 
@@ -90,7 +91,7 @@ impl ByteUsers {
             }
         }
 
-        // What others read.
+        // What is read by primitives that stay, animations, skins and instances.
         for staying in &primitives.staying {
             for &number in &staying.accessors {
                 building.take_accessor(accessors, number as usize, &staying.number.pointer());
@@ -115,6 +116,7 @@ impl ByteUsers {
         }
         building.take_views(root, accessors);
 
+        // Records that overlap take each other.
         let mut byte_users = Self {
             used: building.used.into_values().collect(),
         };
@@ -129,28 +131,31 @@ impl ByteUsers {
             .ok()
     }
 
+    /// Makes records that share bytes take each other.
     fn mark_overlaps(&mut self) {
         let mut pairs = 0;
         for first in 0..self.used.len() {
             let records = self.used[first].records;
             for second in first + 1..self.used.len() {
+                // They rise by storage and start: once one starts too late, so do the rest.
                 let other = self.used[second].records;
                 if other.storage != records.storage || other.start >= records.end() {
                     break;
                 }
+
                 pairs += 1;
                 if pairs > MOST_PAIRS {
                     return self.take_all();
                 }
                 if records.overlap(&other) {
-                    self.mark(first, second);
-                    self.mark(second, first);
+                    self.take_by_records(first, second);
+                    self.take_by_records(second, first);
                 }
             }
         }
     }
 
-    fn mark(&mut self, used: usize, other: usize) {
+    fn take_by_records(&mut self, used: usize, other: usize) {
         if self.used[used].taken_by.is_none() {
             self.used[used].taken_by = Some(self.used[other].pointer.clone());
         }
@@ -158,8 +163,7 @@ impl ByteUsers {
 
     fn take_all(&mut self) {
         for used in &mut self.used {
-            let too_many = || "too many accessors that overlap".to_owned();
-            used.taken_by.get_or_insert_with(too_many);
+            used.take("too many accessors that overlap");
         }
     }
 }
@@ -171,54 +175,56 @@ struct Building {
 }
 
 impl Building {
+    /// The entry of these records; `pointer` is to what reads them, if they are new.
     fn used(&mut self, records: StridedRecords, pointer: &str) -> &mut UsedRecords {
         self.used.entry(records).or_insert_with(|| UsedRecords {
             records,
-            index_users: Vec::new(),
-            vertex_users: Vec::new(),
-            outline_users: Vec::new(),
-            sparse_index_users: Vec::new(),
-            sparse_value_users: Vec::new(),
+            users: Default::default(),
             value_indices: None,
             taken_by: None,
             pointer: pointer.to_owned(),
         })
     }
 
+    /// Adds primitive number `user` to all that it reads.
     fn add_primitive(&mut self, user: usize, primitive: &Movable) {
         let pointer = &primitive.number.pointer();
+        let mut add = |records, used_as| {
+            let used = self.used(records, pointer);
+            used.users[used_as as usize].push(user);
+        };
         if let Some(list) = &primitive.indices {
-            let used = self.used(list.records, pointer);
-            used.index_users.push(user);
+            add(list.records, UsedAs::Indices);
         }
         if let Some(list) = primitive.outline() {
-            let used = self.used(list.records, pointer);
-            used.outline_users.push(user);
+            add(list.records, UsedAs::Outline);
         }
         for &records in &primitive.vertices {
-            let used = self.used(records, pointer);
-            used.vertex_users.push(user);
+            add(records, UsedAs::Vertices);
         }
+
         for sparse in primitive.sparse() {
-            let used = self.used(sparse.indices, pointer);
-            used.sparse_index_users.push(user);
-            let used = self.used(sparse.values, pointer);
-            used.sparse_value_users.push(user);
-            // Values that go with two lists of numbers would have to move in two ways.
-            if *used.value_indices.get_or_insert(sparse.indices) != sparse.indices {
-                used.taken_by.get_or_insert_with(|| pointer.clone());
+            add(sparse.indices, UsedAs::SparseIndices);
+            add(sparse.values, UsedAs::SparseValues);
+        }
+
+        // Values that go with two lists of numbers would have to move in two ways.
+        for sparse in primitive.sparse() {
+            let values = self.used(sparse.values, pointer);
+            if *values.value_indices.get_or_insert(sparse.indices) != sparse.indices {
+                values.take(pointer);
             }
         }
     }
 
     fn take(&mut self, records: StridedRecords, by: &str) {
-        let used = self.used(records, by);
-        used.taken_by.get_or_insert_with(|| by.to_owned());
+        self.used(records, by).take(by);
     }
 
+    /// Takes all bytes that an accessor reads.
     fn take_accessor(&mut self, accessors: &Accessors, number: usize, by: &str) {
+        // Of one that is not sound, the whole view is taken.
         let resolved = accessors.resolve(number, by);
-        // One that is not sound has no records to keep clear of; its view is taken as a whole.
         match resolved.ok().and_then(|accessor| accessor.records) {
             Some(records) => self.take(records, by),
             None => {
@@ -230,6 +236,7 @@ impl Building {
         self.take_sparse(accessors, number);
     }
 
+    /// Takes a whole buffer view, if there is one of this number.
     fn take_view(&mut self, accessors: &Accessors, number: Option<usize>, by: &str) {
         let view = number.and_then(|n| accessors.views().get(n));
         if let Some(records) = view.and_then(|&view| accessors.bytes_of_view(view, 0, None)) {
@@ -239,6 +246,7 @@ impl Building {
 
     /// Takes the buffer views that are not read through accessors, or not only.
     fn take_views(&mut self, root: &Object, accessors: &Accessors) {
+        // Which ones accessors and their sparse parts read.
         let mut is_read = vec![false; accessors.views().len()];
         for number in 0..accessors.len() {
             let Some(accessor) = accessors.value(number) else {
@@ -254,12 +262,14 @@ impl Building {
             }
         }
 
-        for (number, image) in values(root.value("images")) {
+        // Images.
+        for (number, image) in numbered(root.value("images")) {
             let pointer = format!("/images/{number}");
             let view = image.get("bufferView").and_then(Value::whole);
             self.take_view(accessors, view, &pointer);
         }
 
+        // Sources of compressed views; and views that no accessor reads, which an extension may.
         for (number, view) in accessors.views().iter().enumerate() {
             let pointer = format!("/bufferViews/{number}");
             for name in COMPRESSED_VIEW {
@@ -275,18 +285,16 @@ impl Building {
         }
     }
 
-    /// Takes the bytes of a sparse accessor's replacements.
+    /// Takes the sparse elements of an accessor, if it has any: their numbers and their values.
     fn take_sparse(&mut self, accessors: &Accessors, number: usize) {
         let accessor = accessors.value(number);
         let Some(sparse) = accessor.and_then(|accessor| accessor.get("sparse")) else {
             return;
         };
-        let count = sparse
-            .get("count")
-            .and_then(Value::whole)
-            .unwrap_or(usize::MAX);
+        let count = sparse.get("count").and_then(Value::whole);
+        let count = count.unwrap_or(usize::MAX);
 
-        // No element is longer than a MAT4 of doubles; an index has at most four bytes.
+        // Where a size is not known, the largest: a MAT4 of doubles, an index of four bytes.
         let resolved = accessors.resolve(number, "");
         let value_size = resolved.map_or(128, |accessor| accessor.tight_stride);
         for name in ["indices", "values"] {
@@ -310,7 +318,7 @@ impl Building {
     }
 }
 
-/// The bytes of an index into a sparse accessor.
+/// How many bytes the number of a sparse element has.
 fn index_size(indices: Value<'_>) -> usize {
     match indices.get("componentType").and_then(Value::whole) {
         Some(UNSIGNED_BYTE) => 1,
@@ -319,40 +327,38 @@ fn index_size(indices: Value<'_>) -> usize {
     }
 }
 
-/// The accessors that something other than a primitive reads, and the pointers to that.
+/// The accessors that something other than a primitive reads, each with the pointer to that.
 fn other_users(root: &Object) -> Vec<(usize, String)> {
     let mut users = Vec::new();
-    for (number, animation) in values(root.value("animations")) {
-        for (_, sampler) in values(animation.get("samplers")) {
-            for name in ["input", "output"] {
-                let accessor = sampler.get(name).and_then(Value::whole);
-                users.extend(accessor.map(|a| (a, format!("/animations/{number}"))));
-            }
+    let mut add = |accessor: Option<Value<'_>>, kind: &str, number: usize| {
+        let accessor = accessor.and_then(Value::whole);
+        users.extend(accessor.map(|accessor| (accessor, format!("/{kind}/{number}"))));
+    };
+
+    for (number, animation) in numbered(root.value("animations")) {
+        for (_, sampler) in numbered(animation.get("samplers")) {
+            add(sampler.get("input"), "animations", number);
+            add(sampler.get("output"), "animations", number);
         }
     }
 
-    for (number, skin) in values(root.value("skins")) {
-        let accessor = skin.get("inverseBindMatrices").and_then(Value::whole);
-        users.extend(accessor.map(|a| (a, format!("/skins/{number}"))));
+    for (number, skin) in numbered(root.value("skins")) {
+        add(skin.get("inverseBindMatrices"), "skins", number);
     }
 
-    for (number, node) in values(root.value("nodes")) {
-        let instancing = node
-            .get("extensions")
-            .and_then(|extensions| extensions.get("EXT_mesh_gpu_instancing"))
-            .and_then(|extension| extension.get("attributes"));
-        let accessors = instancing.into_iter().flat_map(Value::members);
-        let accessors = accessors.map(|(_, value)| value);
-        users.extend(
-            accessors
-                .filter_map(Value::whole)
-                .map(|a| (a, format!("/nodes/{number}"))),
-        );
+    for (number, node) in numbered(root.value("nodes")) {
+        let extensions = node.get("extensions");
+        let instancing = extensions.and_then(|e| e.get("EXT_mesh_gpu_instancing"));
+        let attributes = instancing.and_then(|instancing| instancing.get("attributes"));
+        for (_, accessor) in attributes.into_iter().flat_map(Value::members) {
+            add(Some(accessor), "nodes", number);
+        }
     }
     users
 }
 
-fn values(array: Option<Value<'_>>) -> impl Iterator<Item = (usize, Value<'_>)> {
+/// The elements of an array with their numbers; none if there is no array.
+fn numbered(array: Option<Value<'_>>) -> impl Iterator<Item = (usize, Value<'_>)> {
     let elements = array.map(Value::elements);
     elements.into_iter().flatten().enumerate()
 }

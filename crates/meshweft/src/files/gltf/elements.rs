@@ -1,4 +1,4 @@
-//! The elements of an accessor as numbers, from the bytes as they now are.
+//! The elements of an accessor as numbers, read from the bytes as they are after all orders.
 
 use super::accessors::{
     Accessors, BYTE, DOUBLE, FLOAT, INT, SHORT, Shape, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT,
@@ -28,8 +28,8 @@ pub(super) struct Elements {
 }
 
 impl Elements {
-    /// Those of accessor `number`; `None` if it has no plain bytes, or components of a type that is
-    /// not read (64-bit integers).
+    /// Those of accessor `number`; `None` if they cannot be read: it is malformed or compressed, or has
+    /// components that are 64-bit integers.
     pub(super) fn of(accessors: &Accessors, number: usize) -> Option<Self> {
         let accessor = accessors.resolve(number, "").ok()?;
         if accessor.is_compressed {
@@ -63,7 +63,7 @@ impl Elements {
         })
     }
 
-    /// How many components an element has; of a matrix, all of them, column after column.
+    /// How many components an element has; a matrix has them column after column.
     pub(super) fn components(&self) -> usize {
         self.shape.columns * self.shape.rows
     }
@@ -111,16 +111,17 @@ struct ElementReader<'a> {
 }
 
 impl ElementReader<'_> {
-    /// The components as `number` makes them of `WIDTH` bytes each.
+    /// All components of all elements; `number` decodes the `WIDTH` bytes of one.
     fn numbers<T: Copy + Default, const WIDTH: usize>(
         &self,
         number: impl Fn([u8; WIDTH]) -> T,
     ) -> Vec<T> {
         let Shape { columns, rows } = self.shape;
-        // There may be bytes between the columns of a matrix.
-        let (column_size, _) = self.shape.sizes(WIDTH);
         let components = columns * rows;
         note_floats(self.count * components);
+
+        // There may be bytes between the columns of a matrix.
+        let (column_size, _) = self.shape.sizes(WIDTH);
         let add = |record: &[u8], numbers: &mut Vec<T>| {
             for column in 0..columns {
                 let bytes = &record[column * column_size..][..rows * WIDTH];
@@ -128,13 +129,14 @@ impl ElementReader<'_> {
             }
         };
 
+        // What the records store; without records all are zero.
         let mut numbers = Vec::with_capacity(self.count * components);
         for record in self.records.into_iter().flat_map(|r| r.of(self.buffers)) {
             add(record, &mut numbers);
         }
-        // Without records all are zero.
         numbers.resize(self.count * components, T::default());
 
+        // What the sparse elements replace.
         let Some(Sparse { indices, values }) = self.sparse else {
             return numbers;
         };

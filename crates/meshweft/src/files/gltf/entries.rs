@@ -1,9 +1,9 @@
-//! The meshes that a file offers, and the records of each.
+//! The meshes that a file offers, the records of each, and which vertices may move.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::buffers::Buffers;
-use super::byte_users::ByteUsers;
+use super::byte_users::{ByteUsers, UsedAs};
 use super::groups::{group_numbers, vertex_obstacle};
 use super::movable::{IndexList, Movable, PrimitiveNumber};
 use super::object::malformed;
@@ -13,7 +13,6 @@ use super::primitives::Primitives;
 use super::sparse::Sparse;
 use super::strided_records::StridedRecords;
 use crate::Mesh;
-use crate::error::MeshError;
 use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::index::index32;
@@ -27,7 +26,7 @@ pub(super) enum Corners {
     Triples(Vec<StridedRecords>),
 }
 
-/// What one vertex order moves.
+/// What one vertex order moves or renumbers.
 #[derive(Debug, Default)]
 pub(super) struct Group {
     /// Attributes and morph targets.
@@ -36,6 +35,7 @@ pub(super) struct Group {
     pub(super) outlines: Vec<StridedRecords>,
     /// Sparse elements, sorted.
     pub(super) sparse: Vec<Sparse>,
+    /// The numbers of its meshes.
     pub(super) meshes: Vec<usize>,
 }
 
@@ -46,11 +46,11 @@ pub(super) struct Entries {
     /// One for each mesh.
     pub(super) corners: Vec<Corners>,
     pub(super) groups: Vec<Group>,
-    /// Of each mesh the primitive that made it: the first with its faces. They rise.
+    /// The first primitive with the faces of each mesh. They rise.
     pub(super) first_primitives: Vec<PrimitiveNumber>,
-    /// The largest index of each mesh as it was read.
-    largest_index: Vec<Option<u32>>,
-    /// Why the vertices of a group stay, and the primitive that comes with it.
+    /// The largest vertex number in each mesh, if it has faces.
+    largest_vertex: Vec<Option<u32>>,
+    /// For each group whose vertices stay: why, and the first primitive that this was found at.
     pub(super) vertex_obstacles: Vec<(PrimitiveNumber, VertexObstacle)>,
 }
 
@@ -66,72 +66,51 @@ impl Entries {
         let group_count = group_of.iter().max().map_or(0, |&last| last + 1);
         let mut entries = Self::default();
         entries.groups.resize_with(group_count, Group::default);
-        let mut first_of_group = vec![None; group_count];
-        let mut obstacles: Vec<Option<(PrimitiveNumber, VertexObstacle)>> = vec![None; group_count];
-        let mut entry_of = BTreeMap::new();
-        let mut looked_through = BTreeSet::new();
+        let mut obstacles = GroupObstacles::new(group_count, byte_users, buffers);
+        let mut mesh_of = BTreeMap::new();
 
         for (primitive, &group) in movable.iter().zip(&group_of) {
-            // Why its vertices stay, as far as shared data tells.
-            let count = *first_of_group[group].get_or_insert(primitive.vertex_count);
-            if obstacles[group].is_none() && primitive.indices.is_some() {
-                obstacles[group] = vertex_obstacle(primitive, count, byte_users)
-                    .map(|obstacle| (primitive.number, obstacle));
-            }
-
-            // Its mesh, which others with the same faces may have made.
-            let key = match &primitive.indices {
-                Some(list) => list.records,
-                // Every primitive has a POSITION with records, and those without indices that share
-                // one share all their data.
-                None => match primitive.vertices.first() {
-                    Some(&records) => records,
-                    None => continue,
-                },
+            // Its mesh, which is there if an earlier primitive has the same corners.
+            let Some(corners) = corner_records(primitive) else {
+                continue;
             };
-            let entry = match entry_of.get(&key) {
-                Some(&entry) => entry,
+            let mesh = match mesh_of.get(&corners) {
+                Some(&mesh) => mesh,
                 None => {
-                    let entry = entries.meshes.len();
+                    let mesh = entries.meshes.len();
                     let name = primitives.name(primitive.number);
                     entries.add(primitive, name, group, buffers)?;
-                    entry_of.insert(key, entry);
-                    entry
+                    mesh_of.insert(corners, mesh);
+                    mesh
                 }
             };
-            if entries.largest_index[entry] >= Some(index32(primitive.vertex_count)) {
-                check_range(entries.meshes[entry].mesh.faces().as_flattened(), primitive)?;
+
+            // It may have fewer vertices than the primitive that the mesh was made of.
+            let largest = entries.largest_vertex[mesh];
+            if largest.is_some_and(|largest| largest as usize >= primitive.vertex_count) {
+                check_range(entries.meshes[mesh].mesh.faces().as_flattened(), primitive)?;
             }
 
-            // Why its vertices stay, as far as its lists tell.
-            if obstacles[group].is_none() {
-                // A list is looked through once for its group, however many primitives share it.
-                obstacles[group] = primitive
-                    .lists()
-                    .filter(|list| looked_through.insert((list.records, list.is_bounded)))
-                    .find_map(|list| list_obstacle(list, primitive, buffers))
-                    .map(|obstacle| (primitive.number, obstacle));
-            }
-
-            let target = &mut entries.groups[group];
-            target.sparse.extend(primitive.sparse());
+            obstacles.look_at(primitive, group);
+            let group = &mut entries.groups[group];
+            group.sparse.extend(primitive.sparse());
             let outline = primitive.outline().map(|list| list.records);
-            target.outlines.extend(outline);
+            group.outlines.extend(outline);
         }
 
         entries.add_vertices(byte_users, &group_of);
         for entry in &mut entries.meshes {
-            entry.vertices_movable &= obstacles[entry.vertex_group].is_none();
+            entry.vertices_movable &= obstacles.found[entry.vertex_group].is_none();
         }
-        entries.vertex_obstacles = obstacles.into_iter().flatten().collect();
+        entries.vertex_obstacles = obstacles.found.into_iter().flatten().collect();
         Ok(entries)
     }
 
-    /// Gives each group the records that go by vertex, and sorts what it has.
+    /// Gives each group its vertex records, and sorts and joins all that it has.
     fn add_vertices(&mut self, byte_users: &ByteUsers, group_of: &[usize]) {
         // All primitives that read some records are of one group.
         for used in &byte_users.used {
-            if let Some(&user) = used.vertex_users.first() {
+            if let Some(&user) = used.users_as(UsedAs::Vertices).first() {
                 self.groups[group_of[user]].vertices.push(used.records);
             }
         }
@@ -147,7 +126,7 @@ impl Entries {
         }
     }
 
-    /// Adds the mesh of a primitive.
+    /// Adds a mesh with the faces of a primitive.
     fn add(
         &mut self,
         primitive: &Movable,
@@ -155,9 +134,6 @@ impl Entries {
         group: usize,
         buffers: &Buffers,
     ) -> Result<(), Problem> {
-        let at_primitive = |error: MeshError| {
-            FileErrorKind::Order(error).at(Place::Json(primitive.number.pointer()))
-        };
         let faces = match &primitive.indices {
             Some(list) => {
                 let storage = &buffers.storages[list.records.storage];
@@ -171,19 +147,24 @@ impl Entries {
                 (0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect()
             }
         };
-
-        let mesh = Mesh::connectivity_only(primitive.vertex_count, faces).map_err(at_primitive)?;
+        let mesh = Mesh::connectivity_only(primitive.vertex_count, faces).map_err(|error| {
+            FileErrorKind::Order(error).at(Place::Json(primitive.number.pointer()))
+        })?;
 
         self.first_primitives.push(primitive.number);
         let largest = mesh.faces().as_flattened().iter().max();
-        self.largest_index.push(largest.copied());
+        self.largest_vertex.push(largest.copied());
+        self.corners.push(match &primitive.indices {
+            Some(list) => Corners::Indices(list.records),
+            None => Corners::Triples(primitive.vertices.to_vec()),
+        });
         self.groups[group].meshes.push(self.meshes.len());
         self.meshes.push(MeshEntry {
             name,
-            runs: if mesh.face_count() == 0 {
-                vec![]
-            } else {
-                vec![0]
+            // All faces are one run.
+            runs: match mesh.face_count() {
+                0 => vec![],
+                _ => vec![0],
             },
             mesh,
             polygons: None,
@@ -191,17 +172,73 @@ impl Entries {
             vertices_movable: primitive.indices.is_some(),
             corners_turnable: true,
         });
-        self.corners.push(match &primitive.indices {
-            Some(list) => Corners::Indices(list.records),
-            None => Corners::Triples(primitive.vertices.to_vec()),
-        });
         Ok(())
     }
 }
 
-/// The largest value of an index type restarts a strip; in a triangle list it is not a vertex.
+/// The records that say which corners the faces of a primitive have: those of its index list or, where
+/// each face is three vertices in a row, its first vertex records.
+///
+/// These are there, for every primitive has a POSITION; and primitives without indices that share some
+/// vertex records share all of them.
+fn corner_records(primitive: &Movable) -> Option<StridedRecords> {
+    match &primitive.indices {
+        Some(list) => Some(list.records),
+        None => primitive.vertices.first().copied(),
+    }
+}
+
+/// Why the vertices of each group stay, while this is found out.
+struct GroupObstacles<'a> {
+    byte_users: &'a ByteUsers,
+    buffers: &'a Buffers,
+    /// How many vertices the first primitive of each group has.
+    vertex_counts: Vec<Option<usize>>,
+    /// The first obstacle of each group, and the primitive that it was found at.
+    found: Vec<Option<(PrimitiveNumber, VertexObstacle)>>,
+    /// Index lists that have been looked through, and whether each was bounded.
+    seen_lists: BTreeSet<(StridedRecords, bool)>,
+}
+
+impl<'a> GroupObstacles<'a> {
+    fn new(group_count: usize, byte_users: &'a ByteUsers, buffers: &'a Buffers) -> Self {
+        Self {
+            byte_users,
+            buffers,
+            vertex_counts: vec![None; group_count],
+            found: vec![None; group_count],
+            seen_lists: BTreeSet::new(),
+        }
+    }
+
+    /// Looks for an obstacle at a primitive, unless its group has one already.
+    fn look_at(&mut self, primitive: &Movable, group: usize) {
+        let group_count = *self.vertex_counts[group].get_or_insert(primitive.vertex_count);
+        if self.found[group].is_some() {
+            return;
+        }
+
+        // In the data that it shares. Without indices its vertices never move.
+        let mut obstacle = None;
+        if primitive.indices.is_some() {
+            obstacle = vertex_obstacle(primitive, group_count, self.byte_users);
+        }
+
+        // In its lists, each looked through once, however many primitives of the group share it.
+        if obstacle.is_none() {
+            let seen = &mut self.seen_lists;
+            obstacle = primitive
+                .lists()
+                .filter(|list| seen.insert((list.records, list.is_bounded)))
+                .find_map(|list| list_obstacle(list, primitive, self.buffers));
+        }
+        self.found[group] = obstacle.map(|obstacle| (primitive.number, obstacle));
+    }
+}
+
+/// Refuses the largest value of an index type: it restarts a strip and is no vertex.
 fn check_restart(numbers: &[u32], list: &IndexList, primitive: &Movable) -> Result<(), Problem> {
-    let restart = u32::MAX >> (32 - 8 * list.records.size);
+    let restart = patch::largest_number(&list.records);
     match numbers.contains(&restart) {
         true => Err(malformed(
             primitive.number.pointer(),
@@ -214,6 +251,7 @@ fn check_restart(numbers: &[u32], list: &IndexList, primitive: &Movable) -> Resu
     }
 }
 
+/// Refuses numbers that are past the last vertex of a primitive.
 fn check_range(numbers: &[u32], primitive: &Movable) -> Result<(), Problem> {
     let count = primitive.vertex_count;
     match numbers.iter().find(|&&number| number as usize >= count) {
@@ -246,15 +284,12 @@ fn list_obstacle(
         .outline()
         .is_some_and(|outline| outline.records == list.records);
     if is_outline {
-        let numbers = patch::numbers(bytes, &list.records);
-        let most = u32::MAX >> (32 - 8 * list.records.size);
-        if primitive.vertex_count > most as usize {
+        let count = primitive.vertex_count;
+        if count > patch::largest_number(&list.records) as usize {
             return obstacle("the numbers of the outline do not reach all of them");
         }
-        if numbers
-            .iter()
-            .any(|&n| n as usize >= primitive.vertex_count)
-        {
+        let numbers = patch::numbers(bytes, &list.records);
+        if numbers.iter().any(|&number| number as usize >= count) {
             return obstacle("the outline names vertices that are not there");
         }
     }
@@ -266,10 +301,12 @@ fn list_obstacle(
     None
 }
 
+/// Whether a list names each of the vertices from 0 on.
 fn names_all(bytes: &[u8], records: &StridedRecords, vertex_count: usize) -> bool {
     if records.count < vertex_count {
         return false;
     }
+
     let mut is_named = vec![false; vertex_count];
     for number in patch::numbers(bytes, records) {
         if let Some(is_named) = is_named.get_mut(number as usize) {

@@ -1,8 +1,8 @@
 //! What extensions on meshes and primitives say about the order of faces and vertices.
 //!
-//! One that is not known may depend on any vertex number, so it keeps the vertices; nothing that is
-//! known to number faces or corners is touched. Nor is what has an extension of this project that is not
-//! known: those exist to say how faces and vertices are ordered.
+//! An extension that is not known may refer to vertices by number, so it keeps the vertices. One that
+//! is known to refer to faces or corners by number keeps the primitive. So does one of this project
+//! that this version does not know: those exist to say how faces and vertices are ordered.
 
 use std::collections::BTreeMap;
 
@@ -16,33 +16,33 @@ use crate::files::error::Problem;
 /// What the names of this project's extensions start with.
 const OWN: &str = "MESHWEFT_";
 
-/// Whether an extension of this project that is not known keeps what has it.
-pub(super) fn keeps_all(name: &str, accessors: &Accessors) -> bool {
+/// Whether this is an extension of this project that this version does not know.
+pub(super) fn is_unknown_own(name: &str, accessors: &Accessors) -> bool {
     name.starts_with(OWN) && !accessors.is_order_free(name)
 }
 
-/// Keeps a primitive because of such an extension.
-pub(super) fn keep_for_own(name: &str, obstacles: &mut Obstacles) {
+/// Keeps a primitive because of an extension of which [`is_unknown_own`] holds.
+pub(super) fn keep_for_unknown_own(name: &str, obstacles: &mut Obstacles) {
     obstacles.keep_primitive(format!(
-        "the extension {name} goes with the order of its faces and vertices: take the version of meshweft \
+        "the extension {name} goes with the order of its faces and vertices: use the version of meshweft \
          that wrote it, or remove the extension"
     ));
 }
 
-/// Extensions of this project on what holds or draws meshes.
+/// Extensions of this project, not known to this version, on the file and on nodes.
 pub(super) struct OwnExtensions {
-    /// One of the file as a whole.
     of_file: Option<String>,
-    /// By the mesh that a node with one draws.
+    /// Those on nodes, by the mesh that the node draws.
     of_nodes: BTreeMap<usize, String>,
 }
 
 impl OwnExtensions {
+    /// Those of a file; `accessors` says which extensions are known.
     pub(super) fn new(root: &Object, accessors: &Accessors) -> Self {
         let own_of = |holder: Value<'_>| {
             let extensions = holder.get("extensions")?;
             let mut names = extensions.members().map(|(name, _)| name);
-            let own = names.find(|name| keeps_all(name, accessors));
+            let own = names.find(|name| is_unknown_own(name, accessors));
             own.map(|name| name.into_owned())
         };
         let nodes = root.value("nodes").into_iter().flat_map(Value::elements);
@@ -53,18 +53,18 @@ impl OwnExtensions {
         }
     }
 
-    /// Keeps all primitives of a mesh, if there is one for it.
+    /// Keeps all primitives of a mesh if the file or a node that draws it has such an extension.
     pub(super) fn keep(&self, mesh: usize, obstacles: &mut Obstacles) {
         if let Some(name) = self.of_file.as_ref().or(self.of_nodes.get(&mesh)) {
-            keep_for_own(name, obstacles);
+            keep_for_unknown_own(name, obstacles);
         }
     }
 }
 
-/// What extensions on the mesh ask of all its primitives.
+/// What the extensions of a mesh keep of all its primitives.
 ///
-/// An accessor that reads the same triangles in one piece, and does not mind their order, is added
-/// to `order_free_accessors`.
+/// Accessors that read the faces of all its primitives in one piece, and do not mind their order, are
+/// added to `order_free_accessors`.
 pub(super) fn of_mesh(
     mesh: &Object,
     accessors: &Accessors,
@@ -77,24 +77,13 @@ pub(super) fn of_mesh(
 
     for name in extensions.names() {
         if name == "EXT_mesh_manifold" {
-            obstacles.keep_vertices(mesh.pointer(), "EXT_mesh_manifold names vertices again");
-            let Some(manifold) = extensions.object(&name)? else {
-                continue;
-            };
-            let primitive = manifold.object("manifoldPrimitive")?;
-            let indices = primitive.map(|p| p.number("indices")).transpose()?;
-            let is_sparse = |&number: &usize| {
-                let accessor = accessors.value(number);
-                accessor.is_some_and(|accessor| accessor.get("sparse").is_some())
-            };
-            let indices = indices.flatten();
-            if manifold.has("mergeIndices") || indices.as_ref().is_some_and(is_sparse) {
-                obstacles
-                    .keep_primitive("EXT_mesh_manifold names corners by their place in the file");
+            obstacles.keep_vertices(mesh.pointer(), "EXT_mesh_manifold lists their numbers too");
+            if let Some(manifold) = extensions.object(&name)? {
+                let indices = of_manifold(&manifold, accessors, &mut obstacles)?;
+                order_free_accessors.extend(indices);
             }
-            order_free_accessors.extend(indices);
-        } else if keeps_all(&name, accessors) {
-            keep_for_own(&name, &mut obstacles);
+        } else if is_unknown_own(&name, accessors) {
+            keep_for_unknown_own(&name, &mut obstacles);
         } else if !accessors.is_order_free(&name) {
             obstacles.keep_vertices_for_unknown(mesh.pointer(), &name);
         }
@@ -102,7 +91,27 @@ pub(super) fn of_mesh(
     Ok(obstacles)
 }
 
-/// What the primitive's extensions ask for; returns the list of outline edges.
+/// What `EXT_mesh_manifold` keeps of the primitives; returns the accessor that reads the faces of all in
+/// one piece.
+fn of_manifold(
+    manifold: &Object,
+    accessors: &Accessors,
+    obstacles: &mut Obstacles,
+) -> Result<Option<usize>, Problem> {
+    let primitive = manifold.object("manifoldPrimitive")?;
+    let indices = primitive.map(|p| p.number("indices")).transpose()?;
+    let indices = indices.flatten();
+
+    // Merged vertices are given by the places of corners in the index list.
+    let accessor = indices.and_then(|number| accessors.value(number));
+    let is_sparse = accessor.is_some_and(|accessor| accessor.get("sparse").is_some());
+    if manifold.has("mergeIndices") || is_sparse {
+        obstacles.keep_primitive("EXT_mesh_manifold names corners by their place in the file");
+    }
+    Ok(indices)
+}
+
+/// Adds what the extensions of a primitive keep; returns the list of its outline's edges.
 pub(super) fn of_primitive(
     primitive: &Object,
     accessors: &Accessors,
@@ -120,13 +129,14 @@ pub(super) fn of_primitive(
                 "it is compressed by KHR_draco_mesh_compression: decompress it first",
             ),
             "FB_ngon_encoding" => {
-                obstacles.keep_primitive("FB_ngon_encoding keeps polygons as runs of triangles");
+                obstacles.keep_primitive("FB_ngon_encoding stores polygons as runs of triangles");
             }
             "EXT_mesh_primitive_edge_visibility" => {
                 obstacles.keep_primitive(format!("{name} numbers the edges of its triangles"));
             }
             "KHR_mesh_primitive_restart" | "EXT_mesh_primitive_restart" => {
-                obstacles.keep_primitive(format!("{name} makes the order of its indices topology"));
+                obstacles
+                    .keep_primitive(format!("{name} gives the order of its indices a meaning"));
             }
             "CESIUM_primitive_outline" => match read_outline(&extensions, accessors)? {
                 Some(list) => outline = Some(list),
@@ -139,11 +149,11 @@ pub(super) fn of_primitive(
             "EXT_mesh_features" => {
                 obstacles.keep_vertices(
                     pointer,
-                    "EXT_mesh_features takes their numbers as identities",
+                    "EXT_mesh_features identifies features by their numbers",
                 );
             }
             name if accessors.is_order_free(name) => {}
-            name if keeps_all(name, accessors) => keep_for_own(name, obstacles),
+            name if is_unknown_own(name, accessors) => keep_for_unknown_own(name, obstacles),
             "EXT_mesh_manifold" | "EXT_structural_metadata" => {
                 obstacles.keep_vertices(pointer, format!("{name} may depend on their order"));
             }
@@ -153,12 +163,14 @@ pub(super) fn of_primitive(
     Ok(outline)
 }
 
+/// The list of `CESIUM_primitive_outline`; `None` if it cannot be renumbered.
 fn read_outline(extensions: &Object, accessors: &Accessors) -> Result<Option<IndexList>, Problem> {
     let outline = extensions.object("CESIUM_primitive_outline")?;
     let number = outline.map(|o| o.number("indices")).transpose()?.flatten();
     let Some(number) = number else {
         return Ok(None);
     };
+
     let accessor = accessors.resolve(number, extensions.pointer())?;
     let is_list = accessor.is_index_type()
         && !(accessor.is_sparse
@@ -166,17 +178,11 @@ fn read_outline(extensions: &Object, accessors: &Accessors) -> Result<Option<Ind
             || accessor.fixed.is_some()
             || accessor.is_strided
             || accessor.unknown_extension.is_some());
-    Ok(accessor
-        .records
-        .filter(|_| is_list)
-        .map(|records| IndexList {
-            records,
-            is_bounded: accessor.is_bounded,
-            pointer: accessor.pointer,
-        }))
+    Ok(IndexList::of(accessor).filter(|_| is_list))
 }
 
-/// Whether a feature of EXT_mesh_features has neither attribute nor texture: vertex numbers count.
+/// Whether `EXT_mesh_features` has features without attribute and texture: vertex numbers are their
+/// IDs.
 fn has_implicit_ids(extensions: &Object) -> Result<bool, Problem> {
     let Some(features) = extensions.object("EXT_mesh_features")? else {
         return Ok(false);

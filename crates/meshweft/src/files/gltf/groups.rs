@@ -1,26 +1,32 @@
 //! Which primitives share what, and so which faces and vertices can be moved.
+//!
+//! Records can be moved only together with all that reads them. So a primitive stays if its corners
+//! are taken (see [`byte_users`](super::byte_users)), and primitives that share data are one group
+//! with one vertex order.
 
 use std::collections::BTreeMap;
 
-use super::byte_users::ByteUsers;
+use super::byte_users::{ByteUsers, UsedAs};
 use super::movable::{Movable, Staying};
 use super::obstacles::VertexObstacle;
 use super::primitives::Primitives;
 use super::strided_records::StridedRecords;
 
-/// A number for each set of vertex records, so that sets are compared once.
+/// A number for each different set of vertex records, so that sets are compared once.
 type SetNumber = usize;
 
 /// Which primitives read some records as their vertices.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum VertexReaders {
     None,
-    /// Only primitives without indices, all with this same set of vertices.
+    /// Only primitives without indices, all with this set of vertex records: they have the same
+    /// faces.
     Triples(SetNumber),
+    /// Any others.
     Mixed,
 }
 
-/// Makes those primitives stay whose faces cannot be re-ordered on their own.
+/// Makes those movable primitives stay whose faces cannot be re-ordered, for what they share.
 ///
 /// # Complexity
 /// Time O(n log n) in the accessors that primitives name: records are taken once at most.
@@ -30,33 +36,33 @@ pub(super) fn keep_entangled(primitives: &mut Primitives, byte_users: &mut ByteU
         return;
     }
 
-    // Those that can still move get other numbers, and so do they where they are users.
-    let mut new_number = vec![None; reasons.len()];
-    let (mut old, mut kept) = (0, 0);
-    let mut reasons = reasons.into_iter();
-    let staying = &mut primitives.staying;
-    primitives.movable.retain_mut(|primitive| {
-        let reason = reasons.next().flatten();
-        match reason {
-            Some(why) => staying.push(Staying {
-                number: primitive.number,
-                why: why.into(),
-                accessors: std::mem::take(&mut primitive.accessors),
-            }),
-            None => {
-                new_number[old] = Some(kept);
-                kept += 1;
-            }
-        }
-        old += 1;
-        new_number[old - 1].is_some()
+    // Those that can still move get new numbers.
+    let mut kept = 0..;
+    let new_number = reasons.iter().map(|reason| match reason {
+        None => kept.next(),
+        Some(_) => None,
     });
+    let new_number: Vec<Option<usize>> = new_number.collect();
+
+    // The others stay.
+    let mut numbers = new_number.iter();
+    let stays = |_: &mut Movable| numbers.next().is_some_and(Option::is_none);
+    let staying = primitives.movable.extract_if(.., stays);
+    for (primitive, why) in staying.zip(reasons.into_iter().flatten()) {
+        primitives.staying.push(Staying {
+            number: primitive.number,
+            why: why.into(),
+            accessors: primitive.accessors,
+        });
+    }
+
+    // Users are numbers of movable primitives, which have changed.
     for used in &mut byte_users.used {
         used.renumber_users(&new_number);
     }
 }
 
-/// Of each primitive, why its faces cannot be re-ordered, if so.
+/// For each primitive, why its faces cannot be re-ordered, if so.
 ///
 /// One that stays reads its data in the old order, so those who share it must stay as well: the
 /// reasons spread until nothing changes.
@@ -68,6 +74,7 @@ fn entangled(movable: &[Movable], byte_users: &mut ByteUsers) -> Vec<Option<Stri
         if reasons[user].is_some() {
             continue;
         }
+
         let primitive = &movable[user];
         reasons[user] = match &primitive.indices {
             Some(_) => entangled_indices(primitive, byte_users),
@@ -77,7 +84,7 @@ fn entangled(movable: &[Movable], byte_users: &mut ByteUsers) -> Vec<Option<Stri
             continue;
         }
 
-        // It stays, and takes all that it reads.
+        // It stays and takes all that it reads, so the other users are to be checked again.
         let lists = primitive.lists().map(|list| &list.records);
         let records = lists.chain(&primitive.vertices);
         for records in records.chain(sparse_records(primitive)) {
@@ -99,7 +106,7 @@ fn vertex_readers(movable: &[Movable], byte_users: &ByteUsers) -> Vec<VertexRead
     let sets = set_numbers(movable);
     let readers = byte_users.used.iter().map(|used| {
         let mut readers = VertexReaders::None;
-        for &user in &used.vertex_users {
+        for &user in used.users_as(UsedAs::Vertices) {
             let one = match movable[user].indices {
                 None => VertexReaders::Triples(sets[user]),
                 Some(_) => VertexReaders::Mixed,
@@ -115,20 +122,23 @@ fn vertex_readers(movable: &[Movable], byte_users: &ByteUsers) -> Vec<VertexRead
     readers.collect()
 }
 
+/// The lists of numbers and of values of its sparse elements.
 fn sparse_records(primitive: &Movable) -> impl Iterator<Item = &StridedRecords> {
     let sparse = primitive.sparse().iter();
     sparse.flat_map(|sparse| [&sparse.indices, &sparse.values])
 }
 
+/// Why the faces of a primitive with indices cannot be re-ordered: others read its indices.
 fn entangled_indices(primitive: &Movable, byte_users: &ByteUsers) -> Option<String> {
     let found = byte_users.find(&primitive.indices.as_ref()?.records)?;
     let used = &byte_users.used[found];
     if let Some(by) = &used.taken_by {
         return Some(format!("its indices share bytes with {by}"));
     }
-    (!used.is_of_one_kind()).then(|| "its indices are also read as something else".to_owned())
+    (!used.has_one_use()).then(|| "its indices are also read as something else".to_owned())
 }
 
+/// Why the faces of a primitive without indices cannot be re-ordered: others read its vertices.
 fn entangled_triples(
     primitive: &Movable,
     byte_users: &ByteUsers,
@@ -140,13 +150,14 @@ fn entangled_triples(
         if let Some(by) = &used.taken_by {
             return Some(format!("its vertices share bytes with {by}"));
         }
-        if !used.is_of_one_kind() || readers[found] == VertexReaders::Mixed {
+        if !used.has_one_use() || readers[found] == VertexReaders::Mixed {
             return Some("its vertices are also read by other primitives".to_owned());
         }
     }
     None
 }
 
+/// For each primitive, the number of its set of vertex records.
 fn set_numbers(movable: &[Movable]) -> Vec<SetNumber> {
     let mut numbers = BTreeMap::new();
     let mut set_numbers = Vec::with_capacity(movable.len());
@@ -157,8 +168,11 @@ fn set_numbers(movable: &[Movable]) -> Vec<SetNumber> {
     set_numbers
 }
 
-/// For each primitive the number of its group: those that share any data, by the first of them.
+/// For each primitive, the number of its group: all that share data, directly or through others.
+///
+/// Groups are numbered by their first primitives, in the order of the file.
 pub(super) fn group_numbers(movable: &[Movable], byte_users: &ByteUsers) -> Vec<usize> {
+    // Join the users of each record (union-find).
     let mut parents: Vec<usize> = (0..movable.len()).collect();
     for used in &byte_users.used {
         let mut users = used.users();
@@ -167,21 +181,22 @@ pub(super) fn group_numbers(movable: &[Movable], byte_users: &ByteUsers) -> Vec<
         };
         for user in users {
             let (a, b) = (root_of(&mut parents, first), root_of(&mut parents, user));
-            // The smaller number leads, so that groups come in the order of the file.
+            // The smaller number leads, so that the root is the first of its group.
             parents[a.max(b)] = a.min(b);
         }
     }
+
+    // Number the groups by their roots.
     let mut numbers = BTreeMap::new();
-    (0..movable.len())
-        .map(|primitive| {
-            let next = numbers.len();
-            *numbers
-                .entry(root_of(&mut parents, primitive))
-                .or_insert(next)
-        })
-        .collect()
+    let number = |primitive| {
+        let next = numbers.len();
+        let root = root_of(&mut parents, primitive);
+        *numbers.entry(root).or_insert(next)
+    };
+    (0..movable.len()).map(number).collect()
 }
 
+/// The root of a node's set; paths are halved on the way.
 fn root_of(parents: &mut [usize], mut node: usize) -> usize {
     while parents[node] != node {
         parents[node] = parents[parents[node]];
@@ -190,7 +205,9 @@ fn root_of(parents: &mut [usize], mut node: usize) -> usize {
     node
 }
 
-/// Why the vertices of an indexed primitive must stay, as far as shared data tells.
+/// Why the vertices of an indexed primitive must stay, as far as itself and shared data tell.
+///
+/// `group_count` is the number of vertices that its group has.
 pub(super) fn vertex_obstacle(
     primitive: &Movable,
     group_count: usize,
@@ -207,8 +224,9 @@ pub(super) fn vertex_obstacle(
     })
 }
 
-/// Why the vertices must stay, if others read the bytes of what goes by vertex.
+/// Why the vertices must stay: others read what a vertex order moves or renumbers.
 fn shared_bytes(primitive: &Movable, byte_users: &ByteUsers) -> Option<String> {
+    // What it moves or renumbers, and how the reason starts.
     let vertices = primitive.vertices.iter();
     let vertices = vertices.map(|records| (records, ["they share", "they are"]));
     let sparse = sparse_records(primitive);
@@ -227,23 +245,24 @@ fn shared_bytes(primitive: &Movable, byte_users: &ByteUsers) -> Option<String> {
         if let Some(by) = &used.taken_by {
             return Some(format!("{shares} bytes with {by}"));
         }
-        if !used.is_of_one_kind() {
+        if !used.has_one_use() {
             return Some(format!("{is} also read as something else"));
         }
     }
     None
 }
 
-/// Why the vertices must stay, if the group or the indices have room for other numbers of them.
+/// Why the vertices must stay: the group has another count of them, or the indices cannot name all.
 fn another_count(primitive: &Movable, group_count: usize) -> Option<String> {
     if primitive.vertex_count != group_count {
         return Some("primitives that share data have different numbers of vertices".into());
     }
+
     let width = primitive
         .indices
         .as_ref()
         .map_or(4, |list| list.records.size);
-    // The largest value of each type restarts a strip, so it is not a vertex.
+    // The largest value of each type restarts a strip, so it is no vertex.
     let most = match width {
         1 => usize::from(u8::MAX),
         2 => usize::from(u16::MAX),

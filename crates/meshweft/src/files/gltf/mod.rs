@@ -4,16 +4,16 @@
 //! those are fixed-size records in buffers. So the JSON of a `.glb` stays byte for byte, and in a
 //! `.gltf` only the text of a changed `data:` URI (or of a renamed buffer file) is replaced.
 //!
-//! Records may be moved only if all who read them agree, so everything that reads bytes is listed
-//! first ([`byte_users`]). Primitives that share an index accessor share their face order and are one
-//! mesh; primitives that share any data share their vertex order and are one group ([`groups`]).
-//! What cannot be moved is left as it is, with a note that says why.
+//! Records may be moved only if all that reads them moves alike, so everything that reads bytes is
+//! listed first ([`byte_users`]). Primitives that share an index accessor share their face order and
+//! are one mesh; primitives that share any data share their vertex order and are one group
+//! ([`groups`]). What cannot be moved is left as it is, with a note that says why.
 //!
 //! Read [`container`] → [`buffers`] → [`accessors`] → [`obstacles`] → [`movable`] → [`extensions`] →
 //! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`];
-//! [`notes`] says what is left. Values are read when they are asked for: [`attributes`] →
-//! [`elements`]. What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the
-//! bytes and values, [`scene`] finds where they are drawn, [`additions`] puts values into the text.
+//! [`notes`] says what stays as it is. Values are read on request: [`attributes`] → [`elements`].
+//! What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the bytes and
+//! values, [`scene`] finds where they are drawn, [`additions`] puts values into the text.
 //!
 //! | word | what it is |
 //! |---|---|
@@ -26,16 +26,18 @@
 //! | `IndexList` | records that are vertex numbers: the corners of faces, or an outline |
 //! | `Sparse` | elements stored by number: their numbers, and their values |
 //! | `Obstacles` | why a primitive stays, or only its vertices, while its JSON is read |
-//! | `VertexObstacle` | one reason why vertices stay, and where it stands |
+//! | `VertexObstacle` | one reason why vertices stay, and the pointer to what gives it |
 //! | `Movable` | a primitive that may move, as far as itself is concerned |
 //! | `Uncommon` | what few movable primitives have: sparse data, outlines, obstacles |
 //! | `Staying` | a primitive that stays as it is, and why |
 //! | `ByteUsers` | all records of the file, each (`UsedRecords`) with those who read it |
+//! | `UsedAs` | what a primitive reads records as: indices, vertices, … |
 //! | `Group` | primitives that share data, and so one vertex order |
 //! | `Corners` | where the corners of a mesh are stored: in a list, or as vertices in a row |
 //! | `Entries` | the meshes that are offered, each with the records of its corners |
+//! | `GroupObstacles` | why the vertices of each group stay, while the entries are made |
 //! | `Missing` | why a buffer has no bytes |
-//! | `View` | all that was found in the JSON |
+//! | `View` | all that was found in the JSON (no `bufferView`) |
 //! | `Growth` | the buffer that new bytes go to |
 //! | `Additions` | new values, each with the way to its place |
 
@@ -104,8 +106,9 @@ struct GltfFile {
     options: ReadOptions,
 }
 
-/// What a reader of the JSON sees.
+/// All that was found in the JSON; nothing to do with a `bufferView`.
 struct View {
+    /// Where in the JSON the URI of each buffer stands, of those that have one.
     uri_spans: BTreeMap<usize, Range<usize>>,
     entries: Entries,
     attributes: Attributes,
@@ -145,7 +148,7 @@ pub(super) fn read(
     Ok((Box::new(file), notes))
 }
 
-/// Finds the meshes of a file.
+/// Finds the meshes of a file, which of them can be moved, and what they store.
 fn look(
     root: &Object,
     buffers: &Buffers,
@@ -155,6 +158,7 @@ fn look(
     let span = |(number, buffer): (usize, Value<'_>)| Some((number, buffer.get("uri")?.span()));
     let uri_spans = uris.filter_map(span).collect();
 
+    // Primitives that share data with what stays must stay too; the rest are the meshes.
     let accessors = Accessors::new(root, buffers, &options.assume_order_safe)?;
     let mut primitives = Primitives::read(root, &accessors, options)?;
     let mut byte_users = ByteUsers::new(root, &accessors, &primitives);
@@ -185,13 +189,14 @@ pub(super) fn create(format: Format, name: &Path, meshes: &[NewMesh<'_>]) -> Rea
     Ok((content, notes))
 }
 
+/// The JSON of a file, parsed.
 fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, Problem> {
     let text = &container.head[container.json.clone()];
     Json::read(text, limits).map_err(|fault| {
-        // A .gltf has no header: the parser's own line and column are already in the message.
-        let place = match container.json.start {
-            0..=3 => Place::File,
-            start => Place::Byte(start),
+        // In a .gltf, the line and column in the parser's message say where it is.
+        let place = match container.is_glb() {
+            true => Place::Byte(container.json.start),
+            false => Place::File,
         };
         let kind = match fault {
             JsonFault::Kind(kind) => kind,
@@ -205,7 +210,7 @@ fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, 
 
 /// The files that the buffers of a glTF or GLB name, as paths beside it.
 ///
-/// Two files of one folder may name the same: see
+/// Two files of one folder may name the same buffer: see
 /// [`ReadOptions::keep_buffers`](super::ReadOptions::keep_buffers).
 ///
 /// # Errors
@@ -241,6 +246,7 @@ pub(super) fn buffers_of_folder(folder: &Path) -> BTreeSet<PathBuf> {
     named.collect()
 }
 
+/// Refuses a file that says it is not of glTF 2.
 fn check_version(root: &Object) -> Result<(), Problem> {
     let Some(asset) = root.object("asset")? else {
         return Ok(());
@@ -268,32 +274,31 @@ impl GltfFile {
         }
     }
 
-    /// Moves the faces of a mesh; returns the mesh if its indices are then to be written.
-    fn move_faces(&mut self, mesh: usize, faces: &FaceOrder) -> Vec<usize> {
+    /// Moves the faces of a mesh, but does not write its indices.
+    fn move_faces(&mut self, mesh: usize, faces: &FaceOrder) {
         match &self.view.entries.corners[mesh] {
-            Corners::Indices(_) => {
-                self.view.entries.meshes[mesh].apply_faces(faces);
-                vec![mesh]
-            }
+            Corners::Indices(_) => self.view.entries.meshes[mesh].apply_faces(faces),
+            // The mesh stays as it is: vertices 0, 1, 2, and so on.
             Corners::Triples(vertices) => {
                 let new_to_old = patch::triples(faces);
                 for records in vertices {
                     let bytes = self.buffers.bytes_to_change(records.storage);
                     patch::permute(bytes, records, &new_to_old);
                 }
-                Vec::new()
             }
         }
     }
 
-    /// Moves the vertices of a group with all that numbers them, but for the indices of faces.
+    /// Moves the vertices of a group and renumbers them, but does not write the indices of faces.
     fn move_vertices(&mut self, group: usize, order: &VertexOrder) {
+        // Vertex data.
         let group = &self.view.entries.groups[group];
         for records in &group.vertices {
             let bytes = self.buffers.bytes_to_change(records.storage);
             patch::permute(bytes, records, order.new_to_old());
         }
 
+        // All that names vertices.
         let old_to_new = order.permutation().old_to_new();
         for records in &group.outlines {
             let bytes = self.buffers.bytes_to_change(records.storage);
@@ -302,7 +307,6 @@ impl GltfFile {
             patch::write_numbers(bytes, records, renumbered);
         }
         sparse::renumber(&mut self.buffers, &group.sparse, &old_to_new);
-
         for &member in &group.meshes {
             self.view.entries.meshes[member].apply_vertices(order);
         }
@@ -337,7 +341,8 @@ impl Content for GltfFile {
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>) {
         let mut rewritten = Vec::new();
         if let Some(faces) = faces.filter(|order| !order.is_identity()) {
-            rewritten = self.move_faces(mesh, faces);
+            self.move_faces(mesh, faces);
+            rewritten.push(mesh);
         }
         if let Some(order) = vertices.filter(|order| !order.is_identity()) {
             let group = self.view.entries.meshes[mesh].vertex_group;

@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 
+use super::accessors::Accessor;
 use super::obstacles::VertexObstacle;
 use super::sparse::Sparse;
 use super::strided_records::StridedRecords;
 
-/// Which primitive of a file: the numbers of its mesh and of itself. They come in the order of the
+/// Which primitive of a file: the numbers of its mesh and of itself. They rise in the order of the
 /// file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct PrimitiveNumber {
@@ -15,6 +16,7 @@ pub(super) struct PrimitiveNumber {
 }
 
 impl PrimitiveNumber {
+    /// The JSON pointer to it.
     pub(super) fn pointer(self) -> String {
         format!("/meshes/{}/primitives/{}", self.mesh, self.primitive)
     }
@@ -23,22 +25,35 @@ impl PrimitiveNumber {
 /// A list of vertex indices in an accessor.
 #[derive(Debug, Clone)]
 pub(super) struct IndexList {
+    /// The JSON pointer to the accessor.
     pub(super) pointer: String,
+    /// The vertex numbers, without gaps.
     pub(super) records: StridedRecords,
     /// The JSON states its smallest and largest values.
     pub(super) is_bounded: bool,
 }
 
+impl IndexList {
+    /// The list in an accessor; `None` if that has no records.
+    pub(super) fn of(accessor: Accessor) -> Option<Self> {
+        Some(Self {
+            records: accessor.records?,
+            is_bounded: accessor.is_bounded,
+            pointer: accessor.pointer,
+        })
+    }
+}
+
 /// A triangle-list primitive whose faces can be re-ordered as far as itself is concerned.
 ///
-/// A file can have very many: what few of them have is apart.
+/// A file can have very many, so what few of them have is in a box of its own.
 #[derive(Debug)]
 pub(super) struct Movable {
     pub(super) number: PrimitiveNumber,
     pub(super) vertex_count: usize,
-    /// Its corners; without them the vertices come three a face.
+    /// Its corners; `None` if each face is three vertices in a row.
     pub(super) indices: Option<Box<IndexList>>,
-    /// Every attribute and morph target that has bytes, rising, each once.
+    /// The records of all attributes and morph targets, rising, each once.
     pub(super) vertices: Box<[StridedRecords]>,
     pub(super) uncommon: Option<Box<Uncommon>>,
     /// The numbers of all accessors it names.
@@ -58,7 +73,7 @@ pub(super) struct Uncommon {
 }
 
 impl Uncommon {
-    /// Whether a primitive with only this has nothing uncommon.
+    /// Whether there is nothing uncommon.
     pub(super) fn is_empty(&self) -> bool {
         self.outline.is_none()
             && self.vertex_obstacle.is_none()

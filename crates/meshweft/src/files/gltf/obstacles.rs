@@ -5,17 +5,19 @@ use std::borrow::Cow;
 /// Why vertices stay where they are.
 #[derive(Debug, Clone)]
 pub(super) struct VertexObstacle {
-    /// The pointer to what keeps them.
+    /// The JSON pointer to what keeps them.
     pub(super) pointer: String,
+    /// The reason, to be read after "the vertices stay where they are: ".
     pub(super) why: String,
 }
 
-/// What keeps a primitive, or its vertices, where they are: the first reason of each counts.
+/// What keeps a primitive or its vertices where they are. Of each, the first reason found counts.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Obstacles {
+    /// The reason, to be read after "left as it is: ".
     pub(super) of_primitive: Option<Cow<'static, str>>,
     pub(super) of_vertices: Option<VertexObstacle>,
-    /// Extensions that are not known, and the pointers to what has them.
+    /// Pointers to what has an extension that is not known, with its name.
     pub(super) unknown: Vec<(String, String)>,
 }
 

@@ -5,6 +5,7 @@ use crate::permutation::FaceOrder;
 
 /// Puts record `new_to_old[i]` at the `i`-th place; the bytes between records stay.
 pub(super) fn permute(bytes: &mut [u8], records: &StridedRecords, new_to_old: &[u32]) {
+    debug_assert_eq!(new_to_old.len(), records.count);
     let StridedRecords {
         start,
         stride,
@@ -12,7 +13,7 @@ pub(super) fn permute(bytes: &mut [u8], records: &StridedRecords, new_to_old: &[
         ..
     } = *records;
 
-    // The usual sizes: a copy of a length that the compiler knows is a few instructions.
+    // The usual sizes: copying a length that the compiler knows takes a few instructions.
     match size {
         4 => permute_sized::<4>(bytes, records, new_to_old),
         8 => permute_sized::<8>(bytes, records, new_to_old),
@@ -34,11 +35,13 @@ pub(super) fn permute(bytes: &mut [u8], records: &StridedRecords, new_to_old: &[
     }
 }
 
+/// [`permute`] for records of `SIZE` bytes.
 fn permute_sized<const SIZE: usize>(
     bytes: &mut [u8],
     records: &StridedRecords,
     new_to_old: &[u32],
 ) {
+    debug_assert_eq!(records.size, SIZE);
     let StridedRecords { start, stride, .. } = *records;
     let record = |bytes: &[u8], i: usize| -> [u8; SIZE] {
         let record = bytes[start + i * stride..].first_chunk::<SIZE>();
@@ -46,6 +49,8 @@ fn permute_sized<const SIZE: usize>(
     };
     let moved = new_to_old.iter().map(|&old| record(bytes, old as usize));
     let moved: Vec<[u8; SIZE]> = moved.collect();
+
+    // Without gaps all go back at once.
     if stride == SIZE {
         return bytes[start..records.end()].copy_from_slice(moved.as_flattened());
     }
@@ -54,17 +59,18 @@ fn permute_sized<const SIZE: usize>(
     }
 }
 
-/// Joins sorted records that are interleaved side by side: they move together.
+/// Joins records that stand beside each other in one interleaved layout, to move them together;
+/// `all` is sorted.
 pub(super) fn join(all: &mut Vec<StridedRecords>) {
     let mut joined: Vec<StridedRecords> = Vec::with_capacity(all.len());
     for &records in all.iter() {
-        let beside = |last: &&mut StridedRecords| {
-            let same = (last.storage, last.count, last.stride);
-            same == (records.storage, records.count, records.stride)
+        let is_beside = |last: &&mut StridedRecords| {
+            let layout = (last.storage, last.count, last.stride);
+            layout == (records.storage, records.count, records.stride)
                 && last.start + last.size == records.start
                 && last.size + records.size <= records.stride
         };
-        match joined.last_mut().filter(beside) {
+        match joined.last_mut().filter(is_beside) {
             Some(last) => last.size += records.size,
             None => joined.push(records),
         }
@@ -72,42 +78,39 @@ pub(super) fn join(all: &mut Vec<StridedRecords>) {
     *all = joined;
 }
 
-/// The vertex order that draws the faces of `order` where each face is three vertices in a row.
+/// A face order as an order of vertices, where each face is three vertices in a row.
 pub(super) fn triples(order: &FaceOrder) -> Vec<u32> {
-    let old_faces = order.new_to_old().iter().enumerate();
-    old_faces
-        .flat_map(|(new, &old)| {
-            let rotation = u32::from(order.rotation(new));
-            [0, 1, 2].map(|corner| 3 * old + (corner + rotation) % 3)
-        })
-        .collect()
+    let faces = order.new_to_old().iter().enumerate();
+    let vertices = faces.flat_map(|(new, &old)| {
+        let rotation = u32::from(order.rotation(new));
+        [0, 1, 2].map(|corner| 3 * old + (corner + rotation) % 3)
+    });
+    vertices.collect()
 }
 
-/// The faces of a tight list of unsigned integers, three a face.
+/// The faces of a tight list of unsigned integers of 1, 2 or 4 bytes, three a face.
 pub(super) fn faces(bytes: &[u8], records: &StridedRecords) -> Vec<[u32; 3]> {
+    debug_assert_eq!(records.stride, records.size);
     let list = &bytes[records.start..records.end()];
     match records.size {
-        1 => list
-            .as_chunks()
-            .0
-            .iter()
-            .map(|f: &[u8; 3]| f.map(u32::from))
-            .collect(),
-        2 => {
-            let (words, _) = list.as_chunks::<2>();
-            let (faces, _) = words.as_chunks::<3>();
-            let number = |word| u32::from(u16::from_le_bytes(word));
-            faces.iter().map(|face| face.map(number)).collect()
-        }
-        _ => {
-            let (words, _) = list.as_chunks::<4>();
-            let (faces, _) = words.as_chunks::<3>();
-            faces
-                .iter()
-                .map(|face| face.map(u32::from_le_bytes))
-                .collect()
-        }
+        1 => faces_of(list, |[number]: [u8; 1]| u32::from(number)),
+        2 => faces_of(list, |word| u32::from(u16::from_le_bytes(word))),
+        _ => faces_of(list, u32::from_le_bytes),
     }
+}
+
+/// The faces of a list whose numbers take `WIDTH` bytes each.
+fn faces_of<const WIDTH: usize>(list: &[u8], number: impl Fn([u8; WIDTH]) -> u32) -> Vec<[u32; 3]> {
+    let (words, _) = list.as_chunks::<WIDTH>();
+    let (faces, _) = words.as_chunks::<3>();
+    faces.iter().map(|face| face.map(&number)).collect()
+}
+
+/// The largest number that a list of unsigned integers can hold. glTF takes it for the restart of a
+/// strip, not for a vertex.
+pub(super) fn largest_number(list: &StridedRecords) -> u32 {
+    debug_assert!((1..=4).contains(&list.size));
+    u32::MAX >> (32 - 8 * list.size)
 }
 
 /// The vertex numbers of a tight list of unsigned integers.
@@ -122,20 +125,23 @@ pub(super) fn numbers(bytes: &[u8], records: &StridedRecords) -> Vec<u32> {
         .collect()
 }
 
-/// Writes vertex numbers into a tight list of unsigned integers, which is wide enough for them.
+/// Writes vertex numbers into a tight list of unsigned integers, whose type holds them all.
 pub(super) fn write_numbers(
     bytes: &mut [u8],
     records: &StridedRecords,
     numbers: impl IntoIterator<Item = u32>,
 ) {
     let list = &mut bytes[records.start..records.end()];
+
+    // The usual type.
     if records.size == 4 {
         let (words, _) = list.as_chunks_mut::<4>();
         let pairs = words.iter_mut().zip(numbers);
         return pairs.for_each(|(word, number)| *word = number.to_le_bytes());
     }
+
     for (chunk, number) in list.chunks_exact_mut(records.size).zip(numbers) {
-        debug_assert!(records.size == 4 || number >> (8 * records.size) == 0);
+        debug_assert!(number >> (8 * records.size) == 0, "number cut off");
         chunk.copy_from_slice(&number.to_le_bytes()[..records.size]);
     }
 }

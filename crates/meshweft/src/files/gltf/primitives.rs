@@ -20,20 +20,26 @@ use crate::files::options::ReadOptions;
 pub(super) struct Primitives {
     pub(super) movable: Vec<Movable>,
     pub(super) staying: Vec<Staying>,
-    /// Accessors that read the same triangles in one piece and do not mind their order.
+    /// Accessors that read the faces of a whole mesh in one piece and do not mind their order.
     pub(super) order_free_accessors: Vec<usize>,
-    /// Of each mesh its name, and whether it has more than one primitive.
-    meshes: Vec<(Option<Box<str>>, bool)>,
+    meshes: Vec<NamedMesh>,
+}
+
+/// What the names of a mesh's primitives are made of.
+#[derive(Debug)]
+struct NamedMesh {
+    name: Option<Box<str>>,
+    has_several_primitives: bool,
 }
 
 impl Primitives {
     /// What a primitive is called.
     pub(super) fn name(&self, number: PrimitiveNumber) -> String {
         let PrimitiveNumber { mesh, primitive } = number;
-        let (name, has_several) = &self.meshes[mesh as usize];
-        let name = name.as_deref();
+        let named = &self.meshes[mesh as usize];
+        let name = named.name.as_deref();
         let name = name.map_or_else(|| format!("mesh {mesh}"), str::to_owned);
-        match has_several {
+        match named.has_several_primitives {
             true => format!("{name}, primitive {primitive}"),
             false => name,
         }
@@ -49,16 +55,18 @@ impl Primitives {
         // JSON is shorter than 4 GiB, so all numbers fit.
         for (mesh_number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
             let mesh = mesh?;
-            let name = mesh.text("name").ok().flatten();
+            let primitives = mesh.value("primitives");
+            let first_two = primitives.map(|all| all.elements().take(2));
+            all.meshes.push(NamedMesh {
+                name: mesh.text("name").ok().flatten().map(|name| name.into()),
+                has_several_primitives: first_two.is_some_and(|two| two.count() == 2),
+            });
+
+            // What keeps all its primitives.
             let mut of_mesh = extensions::of_mesh(&mesh, accessors, &mut all.order_free_accessors)?;
             own.keep(mesh_number as usize, &mut of_mesh);
-            let primitives = mesh.objects("primitives")?;
-            let has_several = mesh
-                .value("primitives")
-                .map_or(0, |p| p.elements().take(2).count());
-            all.meshes
-                .push((name.map(|name| name.into()), has_several != 1));
 
+            let primitives = mesh.objects("primitives")?;
             for (number, primitive) in (0_u32..).zip(primitives) {
                 let reader = PrimitiveReader {
                     number: PrimitiveNumber {
@@ -79,14 +87,17 @@ impl Primitives {
     }
 }
 
-/// What attributes and morph targets store.
+/// What the attributes and morph targets of a primitive store.
 #[derive(Default)]
 struct VertexData {
+    /// Rising, each once; as are the sparse elements.
     records: Vec<StridedRecords>,
     sparse: Vec<Sparse>,
+    /// Accessors whose sparse elements cannot be moved.
     unmoved_sparse: Vec<usize>,
 }
 
+/// All that it takes to read one primitive.
 struct PrimitiveReader<'a> {
     number: PrimitiveNumber,
     primitive: Object<'a>,
@@ -95,8 +106,9 @@ struct PrimitiveReader<'a> {
 }
 
 impl PrimitiveReader<'_> {
+    /// The primitive, movable unless something keeps it: `obstacles` are those of its mesh.
     fn read(self, mut obstacles: Obstacles) -> Result<Primitive, Problem> {
-        // What is drawn in another way, compressed or of unknown build is not looked into.
+        // The data of a primitive that stays for its mode or extensions is not looked at.
         if let Some(why) = self.other_mode()? {
             return Ok(self.staying(why.into()));
         }
@@ -105,19 +117,23 @@ impl PrimitiveReader<'_> {
             return Ok(self.staying(why));
         }
 
+        // Its data, and what keeps that.
         let (position, data) = self.read_attributes(&mut obstacles)?;
         let indices = self.read_indices(&mut obstacles)?;
         let vertex_count = position.as_ref().map_or(0, |position| position.count);
         if indices.is_none() && vertex_count % 3 != 0 {
             obstacles.keep_primitive(format!("{vertex_count} vertices are not three a face"));
         }
-        // Without indices a face order moves the vertices.
-        if let (false, Some(obstacle)) = (self.primitive.has("indices"), &obstacles.of_vertices) {
+
+        // Without indices a face order moves the vertices, so what keeps these keeps it all.
+        if !self.primitive.has("indices")
+            && let Some(obstacle) = &obstacles.of_vertices
+        {
             let why = format!("{}: {}", obstacle.pointer, obstacle.why);
             obstacles.keep_primitive(why);
         }
 
-        // Refuse what is unknown, where that is asked for, even if the primitive stays.
+        // Refuse extensions that are not known, where that is asked for, even if the primitive stays.
         if let Some((pointer, name)) = obstacles.unknown.first()
             && let Some(kind) = self.options.refusal("the extension", name)
         {
@@ -126,8 +142,8 @@ impl PrimitiveReader<'_> {
         if let Some(why) = obstacles.of_primitive {
             return Ok(self.staying(why));
         }
-        self.check_limits(vertex_count, indices.as_ref())?;
 
+        self.check_limits(vertex_count, indices.as_ref())?;
         let uncommon = Uncommon {
             sparse: data.sparse,
             unmoved_sparse: data.unmoved_sparse,
@@ -144,7 +160,7 @@ impl PrimitiveReader<'_> {
         }))
     }
 
-    /// Why its way of drawing keeps it as it is; `None` for a triangle list.
+    /// Why its mode keeps it as it is; `None` for a list of triangles.
     fn other_mode(&self) -> Result<Option<&'static str>, Problem> {
         match self.primitive.number("mode")?.unwrap_or(4) {
             0 => Ok(Some("it is drawn as points")),
@@ -157,6 +173,7 @@ impl PrimitiveReader<'_> {
         }
     }
 
+    /// The primitive as one that stays.
     fn staying(&self, why: Cow<'static, str>) -> Primitive {
         Primitive::Staying(Staying {
             number: self.number,
@@ -165,20 +182,19 @@ impl PrimitiveReader<'_> {
         })
     }
 
-    /// POSITION, and the records of all attributes and morph targets.
+    /// Its POSITION, and what all attributes and morph targets store.
     fn read_attributes(
         &self,
         obstacles: &mut Obstacles,
     ) -> Result<(Option<Accessor>, VertexData), Problem> {
-        let attributes = self.primitive.object("attributes")?;
-        let attributes =
-            attributes.ok_or_else(|| self.primitive.problem("attributes is missing"))?;
+        let missing = || self.primitive.problem("attributes is missing");
+        let attributes = self.primitive.object("attributes")?.ok_or_else(missing)?;
         let position = match attributes.number("POSITION")? {
             Some(number) => {
                 let user = attributes.pointer_to("POSITION");
                 self.accessors.resolve(number, &user)?
             }
-            // An extension may bring the positions; else nothing of it is drawn, which is legal.
+            // This is legal: an extension may give the positions, or else nothing is drawn.
             None => {
                 obstacles.keep_primitive("it has no POSITION");
                 return Ok((None, VertexData::default()));
@@ -201,7 +217,7 @@ impl PrimitiveReader<'_> {
         Ok((Some(position), data))
     }
 
-    /// The accessors of one set: the attributes, or one morph target.
+    /// Adds what one set stores: the attributes, or one morph target.
     fn read_set(
         &self,
         set: &Object,
@@ -243,6 +259,7 @@ impl PrimitiveReader<'_> {
         Ok(())
     }
 
+    /// Its list of corners; `None` if it has none, or one that is not stored.
     fn read_indices(&self, obstacles: &mut Obstacles) -> Result<Option<IndexList>, Problem> {
         let Some(number) = self.primitive.number("indices")? else {
             return Ok(None);
@@ -268,17 +285,14 @@ impl PrimitiveReader<'_> {
             obstacles.keep_primitive(format!("{} indices are not three a face", accessor.count));
         }
 
-        let Some(records) = accessor.records else {
+        let list = IndexList::of(accessor);
+        if list.is_none() {
             obstacles.keep_primitive("its indices have no buffer view");
-            return Ok(None);
-        };
-        Ok(Some(IndexList {
-            records,
-            is_bounded: accessor.is_bounded,
-            pointer: accessor.pointer,
-        }))
+        }
+        Ok(list)
     }
 
+    /// Refuses more vertices or faces than the limits allow.
     fn check_limits(
         &self,
         vertex_count: usize,
@@ -293,29 +307,20 @@ impl PrimitiveReader<'_> {
 
     /// The numbers of all accessors that the primitive names, sound or not.
     fn named_accessors(&self) -> Box<[u32]> {
-        let set = |value: Value<'_>| -> Vec<usize> {
-            let fields = value.members();
-            fields.filter_map(|(_, value)| value.whole()).collect()
-        };
-        let mut numbers: Vec<usize> = Vec::new();
-        numbers.extend(self.primitive.value("indices").and_then(Value::whole));
-        numbers.extend(
-            self.primitive
-                .value("attributes")
-                .map(set)
-                .unwrap_or_default(),
-        );
-        let targets = self.primitive.value("targets").map(Value::elements);
-        numbers.extend(targets.into_iter().flatten().flat_map(set));
-        let extensions = self.primitive.value("extensions");
-        let outline = extensions.and_then(|e| e.get("CESIUM_primitive_outline"));
-        numbers.extend(
-            outline
-                .and_then(|o| o.get("indices"))
-                .and_then(Value::whole),
-        );
-        let numbers = numbers.into_iter().filter_map(|n| u32::try_from(n).ok());
-        numbers.collect()
+        let field = |name| self.primitive.value(name);
+        let targets = field("targets").into_iter().flat_map(Value::elements);
+        let sets = field("attributes").into_iter().chain(targets);
+        let of_sets = sets.flat_map(|set| set.members().map(|(_, number)| number));
+
+        let outline = field("extensions").and_then(|e| e.get("CESIUM_primitive_outline"));
+        let of_outline = outline.and_then(|outline| outline.get("indices"));
+
+        let numbers = field("indices")
+            .into_iter()
+            .chain(of_sets)
+            .chain(of_outline);
+        let numbers = numbers.filter_map(Value::whole);
+        numbers.filter_map(|n| u32::try_from(n).ok()).collect()
     }
 
     /// Notes what keeps the records of an accessor where they are.
@@ -327,8 +332,8 @@ impl PrimitiveReader<'_> {
             obstacles.keep_primitive(why);
         }
         match &accessor.unknown_extension {
-            Some(name) if extensions::keeps_all(name, self.accessors) => {
-                extensions::keep_for_own(name, obstacles);
+            Some(name) if extensions::is_unknown_own(name, self.accessors) => {
+                extensions::keep_for_unknown_own(name, obstacles);
             }
             Some(name) => obstacles.keep_vertices_for_unknown(&accessor.pointer, name),
             None => {}

@@ -4,7 +4,9 @@ use super::buffers::Buffers;
 
 /// Equal-sized pieces of a storage, `stride` bytes apart.
 ///
-/// Two accessors with the same records are the same data, whatever their numbers.
+/// Two accessors with the same records are the same data, whatever their numbers. So that equal data
+/// compares equal, make them by [`new`](Self::new), and keep `stride` the `size` where there are
+/// fewer than two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct StridedRecords {
     pub(super) storage: usize,
@@ -15,6 +17,32 @@ pub(super) struct StridedRecords {
 }
 
 impl StridedRecords {
+    /// `count` records of `size` bytes, `stride` bytes apart (which means nothing below two).
+    pub(super) fn new(
+        storage: usize,
+        start: usize,
+        count: usize,
+        stride: usize,
+        size: usize,
+    ) -> Self {
+        debug_assert!(count < 2 || stride >= size, "records overlap");
+        Self {
+            storage,
+            start,
+            count,
+            stride: if count > 1 { stride } else { size },
+            size,
+        }
+    }
+
+    /// The bytes from the first record to the end of the last; `None` if they are too many to count.
+    pub(super) fn length(count: usize, stride: usize, size: usize) -> Option<usize> {
+        match count.checked_sub(1) {
+            Some(last) => last.checked_mul(stride)?.checked_add(size),
+            None => Some(0),
+        }
+    }
+
     /// The byte after the last record.
     pub(super) fn end(&self) -> usize {
         match self.count {
@@ -35,11 +63,13 @@ impl StridedRecords {
         if apart {
             return false;
         }
+
         let (first, second) = match self.start <= other.start {
             true => (self, other),
             false => (other, self),
         };
-        // A single record behaves as if it came again at the other's distance.
+
+        // A single record behaves as if it came again at the other's stride.
         let stride = match (first.count, second.count) {
             (1, 1) => return true,
             (1, _) => second.stride,
@@ -47,12 +77,13 @@ impl StridedRecords {
             _ if first.stride == second.stride => first.stride,
             _ => return true,
         };
-        // Interleaved records repeat: one distance decides all.
+
+        // Both repeat alike, so one stride tells all: `second` must stand in the gap after `first`.
         let distance = (second.start - first.start) % stride;
         distance < first.size || distance + second.size > stride
     }
 
-    /// The bytes of these records in storage order.
+    /// The bytes of each record, in storage order.
     pub(super) fn of<'a>(&self, buffers: &'a Buffers) -> impl Iterator<Item = &'a [u8]> {
         let bytes = &buffers.storages[self.storage].bytes;
         let Self {

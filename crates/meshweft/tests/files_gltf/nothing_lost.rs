@@ -1,0 +1,201 @@
+//! Writing a glTF loses nothing: neither its own buffers nor files of others.
+
+use std::fs;
+use std::path::PathBuf;
+
+use meshweft::Limits;
+use meshweft::files::Document;
+use serde_json::json;
+
+use crate::output::{Folder, builder, external, named_after, ordered, text};
+use crate::random_orders;
+use crate::reader::Reader;
+
+/// A glTF whose vertices and faces are in two buffers.
+fn two_buffers(folder: &Folder, name: &str) -> PathBuf {
+    let mut builder = builder();
+    builder.views[1]["buffer"] = json!(1);
+    let length = builder.binary.len();
+    let buffers = format!(
+        "[{{\"uri\":\"a.bin\",\"byteLength\":{length}}},{{\"uri\":\"b.bin\",\"byteLength\":{length}}}]"
+    );
+    let source = folder.0.join(name);
+    fs::create_dir_all(source.parent().unwrap()).unwrap();
+    fs::write(&source, text(&builder, &buffers)).unwrap();
+    for buffer in ["a.bin", "b.bin"] {
+        fs::write(source.with_file_name(buffer), &builder.binary).unwrap();
+    }
+    source
+}
+
+#[test]
+fn two_changed_buffers_get_new_names_and_the_text_is_the_commit() {
+    let folder = Folder::new("two-in-place");
+    let source = two_buffers(&folder, "scene.gltf");
+    let before = Reader::of_file(&source, None);
+    let written = ordered(&source).write(&source).unwrap();
+    let names = named_after(&folder, "scene");
+    assert_eq!(names.len(), 2);
+    assert_eq!(
+        folder.files(),
+        [&names[..], &["scene.gltf".to_owned()]].concat()
+    );
+    assert_eq!(written.files.last().unwrap(), &source);
+    assert_eq!(written.files.len(), 3);
+    let after = Reader::of_file(&source, None);
+    assert!(before.triangles() == after.triangles() && before.buffers != after.buffers);
+
+    // The same content has the same names: nothing changes any more.
+    let again = Document::open(&source, Limits::default()).unwrap();
+    let text = fs::read(&source).unwrap();
+    again.write(&source).unwrap();
+    assert_eq!(named_after(&folder, "scene"), names);
+    assert_eq!(fs::read(&source).unwrap(), text);
+
+    // Another order gives others, and the old ones go.
+    ordered(&source).write(&source).unwrap();
+    assert_eq!(folder.files().len(), 3);
+    assert_ne!(named_after(&folder, "scene"), names);
+    assert!(before.triangles() == Reader::of_file(&source, None).triangles());
+}
+
+#[test]
+fn old_buffers_stay_where_another_scene_names_them() {
+    let folder = Folder::new("two-and-another");
+    let source = two_buffers(&folder, "scene.gltf");
+    let other = folder.0.join("other.gltf");
+    fs::copy(&source, &other).unwrap();
+    let before = Reader::of_file(&other, None);
+    ordered(&source).write(&source).unwrap();
+    assert_eq!(named_after(&folder, "scene").len(), 2);
+    assert!(before.buffers == Reader::of_file(&other, None).buffers);
+}
+
+#[test]
+fn a_file_of_another_document_is_never_replaced() {
+    let folder = Folder::new("foreign");
+    let sources = ["one", "two"].map(|name| {
+        let inner = Folder(folder.0.join(name));
+        fs::create_dir_all(&inner.0).unwrap();
+        let source = external(&inner, "scene.bin", "scene.bin");
+        std::mem::forget(inner);
+        source
+    });
+    let out = folder.0.join("out");
+    fs::create_dir_all(&out).unwrap();
+    let before = Reader::of_file(&sources[0], None);
+    for (seed, (name, source)) in (1..).zip(["one.gltf", "two.gltf"].iter().zip(&sources)) {
+        let mut document = Document::open(source, Limits::default()).unwrap();
+        random_orders(&mut document, seed);
+        document.write(&out.join(name)).unwrap();
+    }
+    let files = || {
+        let names = fs::read_dir(&out).unwrap();
+        let mut names: Vec<String> = names
+            .map(|e| e.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    };
+    assert_eq!(files(), ["one.gltf", "scene.bin", "two.bin", "two.gltf"]);
+    let after = [0, 1].map(|i| Reader::of_file(&out.join(["one.gltf", "two.gltf"][i]), None));
+    assert!(
+        after
+            .iter()
+            .all(|after| before.triangles() == after.triangles())
+    );
+    assert!(after[0].buffers != after[1].buffers);
+
+    // Written again they keep their names; with other content the name says what is in it.
+    for (seed, expected) in [(2, "two.bin"), (3, "two.")] {
+        let mut document = Document::open(&sources[1], Limits::default()).unwrap();
+        random_orders(&mut document, seed);
+        document.write(&out.join("two.gltf")).unwrap();
+        assert_eq!(files().len(), 4, "{:?}", files());
+        assert!(files()[2].starts_with(expected), "{:?}", files());
+        let two = Reader::of_file(&out.join("two.gltf"), None);
+        assert!(before.triangles() == two.triangles());
+        assert!(after[0].buffers == Reader::of_file(&out.join("one.gltf"), None).buffers);
+    }
+
+    // A file that no document names is not replaced either.
+    fs::write(out.join("three.bin"), "mine").unwrap();
+    fs::write(out.join("scene.bin"), "mine").unwrap();
+    ordered(&sources[0]).write(&out.join("three.gltf")).unwrap();
+    assert_eq!(fs::read(out.join("three.bin")).unwrap(), b"mine");
+    assert_eq!(fs::read(out.join("scene.bin")).unwrap(), b"mine");
+    let three = Reader::of_file(&out.join("three.gltf"), None);
+    assert!(before.triangles() == three.triangles());
+}
+
+#[test]
+fn one_changed_buffer_is_one_rename() {
+    let folder = Folder::new("one-rename");
+    let source = external(&folder, "a.bin", "a.bin");
+    let written = || fs::metadata(&source).unwrap().modified().unwrap();
+    let time = std::time::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000_000);
+    let file = fs::File::options().write(true).open(&source).unwrap();
+    file.set_modified(time).unwrap();
+    ordered(&source).write(&source).unwrap();
+    // The text does not change, and is not written.
+    assert_eq!(written(), time);
+    assert_eq!(folder.files(), ["a.bin", "scene.gltf"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_followed_within_the_folder_only() {
+    use std::os::unix::fs::symlink;
+
+    // A buffer elsewhere, behind a link.
+    let (folder, elsewhere) = (Folder::new("links"), Folder::new("links-elsewhere"));
+    let source = external(&folder, "a.bin", "a.bin");
+    let before = fs::read(folder.0.join("a.bin")).unwrap();
+    let foreign = elsewhere.0.join("a.bin");
+    fs::rename(folder.0.join("a.bin"), &foreign).unwrap();
+    symlink(&foreign, folder.0.join("a.bin")).unwrap();
+    let error = Document::open(&source, Limits::default()).unwrap_err();
+    assert!(
+        error.to_string().contains("a link out of the folder"),
+        "{error}"
+    );
+    assert_eq!(fs::read(&foreign).unwrap(), before);
+
+    // An output elsewhere, behind a link.
+    let inside = external(&elsewhere, "a.bin", "a.bin");
+    symlink(&inside, folder.0.join("out.gltf")).unwrap();
+    let text = fs::read(&inside).unwrap();
+    let error = ordered(&inside)
+        .write(&folder.0.join("out.gltf"))
+        .unwrap_err();
+    assert!(
+        error.to_string().contains("a link out of the folder"),
+        "{error}"
+    );
+    assert_eq!(fs::read(&inside).unwrap(), text);
+
+    // Links that stay are followed, and stay links.
+    let folder = Folder::new("links-inside");
+    let source = external(&folder, "a.bin", "b.bin");
+    symlink("b.bin", folder.0.join("a.bin")).unwrap();
+    let triangles = Reader::of_file(&source, None).triangles();
+    ordered(&source).write(&source).unwrap();
+    assert!(
+        fs::symlink_metadata(folder.0.join("a.bin"))
+            .unwrap()
+            .is_symlink()
+    );
+    assert_ne!(fs::read(folder.0.join("b.bin")).unwrap(), before);
+    assert!(triangles == Reader::of_file(&source, None).triangles());
+
+    // A device is not a file.
+    let folder = Folder::new("links-device");
+    let source = external(&folder, "a.bin", "a.bin");
+    fs::remove_file(folder.0.join("a.bin")).unwrap();
+    let status = std::process::Command::new("mkfifo")
+        .arg(folder.0.join("a.bin"))
+        .status();
+    assert!(status.unwrap().success());
+    let error = Document::open(&source, Limits::default()).unwrap_err();
+    assert!(error.to_string().contains("it is not a file"), "{error}");
+}
