@@ -130,8 +130,9 @@ impl Document {
         remove(&free);
     }
 
-    /// Every file of the document with its bytes, the main one last: what [`Surroundings::Memory`] takes.
-    /// Nothing is compressed, and no disk is touched.
+    /// Every file of the document with its bytes, the main one last: what
+    /// [`Surroundings::Memory`](super::Surroundings::Memory) takes. Nothing is compressed, and no disk is
+    /// touched.
     ///
     /// The paths are from the folder of `name`, and that of the main file is the last part of it. The
     /// others have the paths by which they were read, and so the text of the main file stays. Only for
