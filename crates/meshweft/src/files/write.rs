@@ -80,7 +80,7 @@ impl Document {
                 .map(|b| path.with_file_name(b.relative))
                 .collect(),
             false if beside.is_empty() || !path.exists() => Vec::new(),
-            // What is no glTF names nothing.
+            // A file that is not a glTF names nothing.
             false => gltf::external_buffers(path, &Limits::default()).unwrap_or_default(),
         };
         let placement = Placement {
