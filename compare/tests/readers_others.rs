@@ -205,11 +205,7 @@ fn reordered(file: &Path) -> Vec<u8> {
         let movable = entry.vertices_movable && members.count() == 1;
         let vertices = movable.then(|| vertex_fetch(&entry.mesh));
         document
-            .edit(Edit::Order {
-                mesh,
-                faces: Some(&faces),
-                vertices: vertices.as_ref(),
-            })
+            .edit(Edit::order(mesh, &faces, vertices.as_ref()))
             .unwrap();
     }
     document.to_main_bytes().unwrap()

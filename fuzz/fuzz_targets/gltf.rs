@@ -50,11 +50,7 @@ fn reverse(document: &mut Document) {
             .vertices_movable
             .then(|| VertexOrder::from(reversed(entry.mesh.vertex_count())));
         document
-            .edit(Edit::Order {
-                mesh,
-                faces: Some(&faces),
-                vertices: vertices.as_ref(),
-            })
+            .edit(Edit::order(mesh, &faces, vertices.as_ref()))
             .expect("the orders have the right lengths");
         assert_eq!(before, triangles(document, mesh));
     }

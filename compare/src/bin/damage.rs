@@ -291,11 +291,7 @@ fn optimize(bytes: Vec<u8>, file: &Path) -> Result<(), FileError> {
         let _ = (misses(entry), misses(&ordered));
         let vertices = entry.vertices_movable.then(|| vertex_fetch(&ordered.mesh));
         drop(ordered);
-        document.edit(Edit::Order {
-            mesh,
-            faces: Some(&faces),
-            vertices: vertices.as_ref(),
-        })?;
+        document.edit(Edit::order(mesh, &faces, vertices.as_ref()))?;
     }
     document.to_main_bytes()?;
     Ok(())

@@ -89,11 +89,7 @@ fn row(name: &str, size: usize, path: &Path) -> Result<(), String> {
             };
             let mut document = open()?;
             let read = lap();
-            let applied = document.edit(Edit::Order {
-                mesh: 0,
-                faces: Some(&faces),
-                vertices: vertices.as_ref(),
-            });
+            let applied = document.edit(Edit::order(0, &faces, vertices.as_ref()));
             applied.map_err(|error| error.to_string())?;
             let moved = lap();
             document.write(&output).map_err(|error| error.to_string())?;

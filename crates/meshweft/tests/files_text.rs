@@ -125,13 +125,7 @@ fn check_times(bytes: &[u8], format: Format, seed: u64, times: usize) {
     };
     let identity = FaceOrder::identity(entry.record_count());
     let stay = VertexOrder::identity(entry.mesh.vertex_count());
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&identity),
-            vertices: Some(&stay),
-        })
-        .unwrap();
+    document.edit(Edit::order(0, &identity, &stay)).unwrap();
     assert!(
         written(&document) == bytes,
         "orders that move nothing change nothing"
@@ -140,11 +134,7 @@ fn check_times(bytes: &[u8], format: Format, seed: u64, times: usize) {
         let before = simple::read(&written(&document), format);
         let (faces, vertices) = random.orders(&document.meshes()[0]);
         document
-            .edit(Edit::Order {
-                mesh: 0,
-                faces: Some(&faces),
-                vertices: vertices.as_ref(),
-            })
+            .edit(Edit::order(0, &faces, vertices.as_ref()))
             .unwrap();
         let after = written(&document);
         let vertices = vertices.unwrap_or_else(|| stay.clone());
@@ -195,13 +185,7 @@ fn an_obj_statement_goes_on_after_a_backslash() {
     assert_eq!(document.meshes()[0].mesh.face_count(), 4);
     let order = FaceOrder::from(Permutation::new(vec![3, 2, 1, 0]).unwrap());
     let last_first = VertexOrder::from(Permutation::new(vec![3, 2, 1, 0]).unwrap());
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&order),
-            vertices: Some(&last_first),
-        })
-        .unwrap();
+    document.edit(Edit::order(0, &order, &last_first)).unwrap();
     let expected = "v 0 0 1\nv 0 1 0\nv 1 0 0\nv 0 \\\n 0 0\nf 4 3 1\nf 4 2 1 # \\ \\\n\nf 3 2 1\nf 4 3 \\\r\n 2\n";
     assert_eq!(String::from_utf8(written(&document)).unwrap(), expected);
 }
@@ -386,13 +370,7 @@ fn rows_of_texture_faces_go_with_their_faces() {
     let entry = &document.meshes()[0];
     assert!(entry.vertices_movable && !entry.corners_turnable);
     let order = FaceOrder::from(Permutation::new(vec![1, 0]).unwrap());
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&order),
-            vertices: None,
-        })
-        .unwrap();
+    document.edit(Edit::order(0, &order, None)).unwrap();
     let output = String::from_utf8(written(&document)).unwrap();
     assert!(
         output.ends_with("3 2 1 0\n3 0 1 2\n1 3 9 8 7\n0 3 7 8 9 \n"),

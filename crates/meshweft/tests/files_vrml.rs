@@ -73,13 +73,7 @@ fn check(text: &str, seed: u64) {
         let entry = &document.meshes()[mesh];
         let stay = FaceOrder::identity(entry.record_count());
         let vertices = VertexOrder::identity(entry.mesh.vertex_count());
-        document
-            .edit(Edit::Order {
-                mesh,
-                faces: Some(&stay),
-                vertices: Some(&vertices),
-            })
-            .unwrap();
+        document.edit(Edit::order(mesh, &stay, &vertices)).unwrap();
     }
     assert_eq!(written(&document), text, "orders that move nothing");
     for _ in 0..2 {
@@ -89,11 +83,7 @@ fn check(text: &str, seed: u64) {
             let entry = document.meshes()[mesh].clone();
             let (order, vertices) = random.orders(&entry);
             document
-                .edit(Edit::Order {
-                    mesh,
-                    faces: Some(&order),
-                    vertices: vertices.as_ref(),
-                })
+                .edit(Edit::order(mesh, &order, vertices.as_ref()))
                 .unwrap();
             // Entries come in the order of the file; those that stay have no entry.
             let place = before.entries[mesh];
@@ -136,13 +126,7 @@ fn a_file_is_changed_to_the_byte() {
     let mut document = open(text.as_bytes());
     let order = FaceOrder::new(Permutation::new(vec![1, 0]).unwrap(), vec![1, 0]).unwrap();
     let vertices = VertexOrder::from(Permutation::new(vec![1, 0, 2]).unwrap());
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&order),
-            vertices: Some(&vertices),
-        })
-        .unwrap();
+    document.edit(Edit::order(0, &order, &vertices)).unwrap();
     let expected = "#VRML V2.0 utf8\r\nIndexedFaceSet{coord Coordinate{point[1\t0 0,,0 0 0 # one\r\n 2 0 0,]}\r\n\
                 coordIndex[0 1\n2 -1 # a\n 1,0,2,-1]color Color{color[0 1 0 0 0 1]}colorPerVertex FALSE}#end";
     assert_eq!(written(&document), expected);

@@ -30,11 +30,7 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
             .vertices_movable
             .then(|| last_first(entry.mesh.vertex_count()));
         document
-            .edit(Edit::Order {
-                mesh,
-                faces: Some(&faces),
-                vertices: vertices.as_ref(),
-            })
+            .edit(Edit::order(mesh, &faces, vertices.as_ref()))
             .expect("an order that the entry allows");
     }
     let output = document.to_main_bytes().expect("a name of the same format");

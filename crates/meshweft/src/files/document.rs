@@ -29,7 +29,7 @@ use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
 ///         Some(starts) => algorithm.polygon_order(mesh, starts),
 ///         None => algorithm.face_order(mesh),
 ///     });
-///     document.edit(Edit::Order { mesh, faces: Some(&order), vertices: None })?;
+///     document.edit(Edit::order(mesh, &order, None))?;
 /// }
 /// document.write(Path::new("ordered.glb"))?;
 /// # Ok::<(), meshweft::files::FileError>(())

@@ -35,6 +35,21 @@ pub enum Edit<'a> {
 }
 
 impl<'a> Edit<'a> {
+    /// [`Order`](Self::Order) of the faces of a mesh, of its vertices, or of both.
+    #[must_use]
+    pub fn order(
+        mesh: usize,
+        faces: impl Into<Option<&'a FaceOrder>>,
+        vertices: impl Into<Option<&'a VertexOrder>>,
+    ) -> Self {
+        let (faces, vertices) = (faces.into(), vertices.into());
+        Self::Order {
+            mesh,
+            faces,
+            vertices,
+        }
+    }
+
     /// [`Append`](Self::Append) of meshes alone.
     #[must_use]
     pub fn append(meshes: &'a [NewMesh<'a>]) -> Self {

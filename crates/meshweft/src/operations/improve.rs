@@ -182,20 +182,12 @@ impl Improvement {
     pub(super) fn apply(&self, document: &mut Document) -> Result<(), FileError> {
         for (i, change) in self.faces.iter().enumerate() {
             if !change.order.is_identity() {
-                document.edit(Edit::Order {
-                    mesh: i,
-                    faces: Some(&change.order),
-                    vertices: None,
-                })?;
+                document.edit(Edit::order(i, &change.order, None))?;
             }
         }
         for VertexChange { members, order } in self.vertices.values() {
             if !order.is_identity() {
-                document.edit(Edit::Order {
-                    mesh: members[0],
-                    faces: None,
-                    vertices: Some(order),
-                })?;
+                document.edit(Edit::order(members[0], None, order))?;
             }
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! Attributes: what is listed, and that values follow the vertices.
 
+use meshweft::VertexOrder;
 use meshweft::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use meshweft::files::{Document, Edit, FileErrorKind, Place};
 use serde_json::{Value, json};
@@ -265,14 +266,8 @@ fn faces_name_the_vertices_whose_values_are_read() {
     let before = corners(&document);
     let mut random = Random(3);
     let faces = random.face_order(60);
-    let vertices = random.permutation(COUNT).into();
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&faces),
-            vertices: Some(&vertices),
-        })
-        .unwrap();
+    let vertices = VertexOrder::from(random.permutation(COUNT));
+    document.edit(Edit::order(0, &faces, &vertices)).unwrap();
     assert_eq!(corners(&document), faces.apply(&before));
 }
 

@@ -58,11 +58,7 @@ pub(crate) fn random_orders(document: &mut Document, seed: u64) {
             .vertices_movable
             .then(|| VertexOrder::from(random.permutation(entry.mesh.vertex_count())));
         document
-            .edit(Edit::Order {
-                mesh,
-                faces: Some(&faces),
-                vertices: vertices.as_ref(),
-            })
+            .edit(Edit::order(mesh, &faces, vertices.as_ref()))
             .unwrap();
     }
 }

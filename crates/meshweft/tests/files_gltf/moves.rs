@@ -151,13 +151,7 @@ fn faces_without_indices_move_their_vertices() {
     assert_eq!(entry.mesh.faces()[1], [3, 4, 5]);
     let positions = document.positions(0).unwrap().unwrap();
     let order = Random(1).face_order(10);
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&order),
-            vertices: None,
-        })
-        .unwrap();
+    document.edit(Edit::order(0, &order, None)).unwrap();
     assert_eq!(document.meshes()[0].mesh.faces()[1], [3, 4, 5]);
     let moved = document.positions(0).unwrap().unwrap();
     let rotation = usize::from(order.rotation(0));
@@ -216,11 +210,7 @@ fn an_order_and_its_inverse_give_the_first_bytes() {
     for (faces, vertices) in orders {
         let vertices = VertexOrder::from(vertices);
         document
-            .edit(Edit::Order {
-                mesh: 0,
-                faces: Some(&FaceOrder::from(faces)),
-                vertices: Some(&vertices),
-            })
+            .edit(Edit::order(0, &FaceOrder::from(faces), &vertices))
             .unwrap();
     }
     assert_eq!(written(&document), bytes);

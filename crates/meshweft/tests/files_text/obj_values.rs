@@ -21,11 +21,7 @@ pub(crate) fn check_values(bytes: &[u8], format: Format, seed: u64) -> usize {
         let before = all(&document, 0);
         let (faces, vertices) = random.orders(&entry);
         document
-            .edit(Edit::Order {
-                mesh: 0,
-                faces: Some(&faces),
-                vertices: vertices.as_ref(),
-            })
+            .edit(Edit::order(0, &faces, vertices.as_ref()))
             .unwrap();
         let after = all(&document, 0);
         assert_follow(&before, &entry, &after, &faces, vertices.as_ref());
@@ -209,11 +205,7 @@ fn values_of_spoilt_files_are_refused_or_survive() {
             };
             let (faces, vertices) = random.orders(&entry);
             document
-                .edit(Edit::Order {
-                    mesh: 0,
-                    faces: Some(&faces),
-                    vertices: vertices.as_ref(),
-                })
+                .edit(Edit::order(0, &faces, vertices.as_ref()))
                 .unwrap();
             for info in document.attributes(0) {
                 let _ = document.attribute(0, &info);

@@ -2,7 +2,7 @@
 
 use meshweft::attribute::{AttributeInfo, ComponentType, Domain, Semantic, Values};
 use meshweft::files::{Document, Edit, Format, Place};
-use meshweft::{FaceOrder, Permutation};
+use meshweft::{FaceOrder, Permutation, VertexOrder};
 
 use super::open;
 
@@ -82,25 +82,13 @@ fn values_of_lines_follow_their_order() {
     assert_eq!(values(&document, &face_colors), expected);
 
     let faces = FaceOrder::from(Permutation::new(vec![1, 2, 0]).unwrap());
-    let vertices = Permutation::new(vec![3, 1, 0, 2]).unwrap().into();
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&faces),
-            vertices: Some(&vertices),
-        })
-        .unwrap();
+    let vertices = VertexOrder::from(Permutation::new(vec![3, 1, 0, 2]).unwrap());
+    document.edit(Edit::order(0, &faces, &vertices)).unwrap();
     check_vertices(&document, [3, 1, 0, 2]);
     let expected = Values::F32([triangle, quad, quad].concat());
     assert_eq!(values(&document, &face_colors), expected);
 
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&faces),
-            vertices: Some(&vertices),
-        })
-        .unwrap();
+    document.edit(Edit::order(0, &faces, &vertices)).unwrap();
     check_vertices(&document, [2, 1, 3, 0]);
 }
 

@@ -64,13 +64,7 @@ fn corners_are_turned_by_exchanging_positions() {
     let text = "solid\nfacet normal 7 8 9 outer loop vertex 0 0\t0 vertex 1 0 0\nvertex 2.50 0 0 endloop endfacet endsolid";
     let mut document = open(text.as_bytes(), Format::Stl);
     let order = FaceOrder::new(Permutation::identity(1), vec![1]).unwrap();
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&order),
-            vertices: None,
-        })
-        .unwrap();
+    document.edit(Edit::order(0, &order, None)).unwrap();
     let expected = "solid\nfacet normal 7 8 9 outer loop vertex 1 0 0 vertex 2.50 0 0\nvertex 0 0\t0 endloop endfacet endsolid";
     assert_eq!(String::from_utf8(written(&document)).unwrap(), expected);
 }

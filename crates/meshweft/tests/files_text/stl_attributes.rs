@@ -50,13 +50,7 @@ fn positions_and_normals_of_ascii_follow_their_facets() {
     let order = FaceOrder::new(Permutation::new(vec![1, 0]).unwrap(), vec![2, 1]).unwrap();
     for _ in 0..3 {
         let before = corners(&document);
-        document
-            .edit(Edit::Order {
-                mesh: 0,
-                faces: Some(&order),
-                vertices: None,
-            })
-            .unwrap();
+        document.edit(Edit::order(0, &order, None)).unwrap();
         assert_eq!(corners(&document), order.apply(&before));
     }
     assert_eq!(
@@ -73,13 +67,7 @@ fn numbers_of_binary_follow_their_facets() {
     assert_eq!(before[3][2], [2.0, -0.0, f32::NAN].map(f32::to_bits));
     let order: Vec<u32> = vec![4, 0, 8, 1, 7, 2, 6, 3, 5];
     let order = FaceOrder::new(Permutation::new(order).unwrap(), vec![2; 9]).unwrap();
-    document
-        .edit(Edit::Order {
-            mesh: 0,
-            faces: Some(&order),
-            vertices: None,
-        })
-        .unwrap();
+    document.edit(Edit::order(0, &order, None)).unwrap();
     assert_eq!(corners(&document), order.apply(&before));
 
     // The builder writes the number of the facet in all bytes of its normal, and in the last.

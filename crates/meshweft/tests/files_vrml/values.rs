@@ -19,11 +19,7 @@ fn check_values(text: &str, seed: u64) -> usize {
             let before = all(&document, mesh);
             let (faces, vertices) = random.orders(&entry);
             document
-                .edit(Edit::Order {
-                    mesh,
-                    faces: Some(&faces),
-                    vertices: vertices.as_ref(),
-                })
+                .edit(Edit::order(mesh, &faces, vertices.as_ref()))
                 .unwrap();
             let after = all(&document, mesh);
             assert_follow(&before, &entry, &after, &faces, vertices.as_ref());
@@ -170,11 +166,7 @@ fn values_of_spoilt_files_are_refused_or_survive() {
             for mesh in 0..document.meshes().len() {
                 let (faces, vertices) = random.orders(&document.meshes()[mesh]);
                 document
-                    .edit(Edit::Order {
-                        mesh,
-                        faces: Some(&faces),
-                        vertices: vertices.as_ref(),
-                    })
+                    .edit(Edit::order(mesh, &faces, vertices.as_ref()))
                     .unwrap();
                 for info in document.attributes(mesh) {
                     let _ = document.attribute(mesh, &info);
