@@ -13,7 +13,7 @@ import { promisify } from "node:util";
 import { compareDrawn } from "./drawn.mjs";
 import { Glb } from "./glb.mjs";
 import { make } from "./made.mjs";
-import { copyBelow, filesBelow, findings, isError, isGlb, jsonOf, names } from "./reading.mjs";
+import { copyAround, filesBelow, findings, isError, isGlb, jsonOf, names } from "./reading.mjs";
 import { loadScene } from "./three.mjs";
 
 const [program, data, kept] = process.argv.slice(2);
@@ -157,9 +157,8 @@ async function check(source, name, folder, tally) {
     await rm(folder, { recursive: true, force: true });
     await mkdir(folder, { recursive: true });
     // Textures are not written by the program, so all that stands beside the source comes along.
-    if (!isGlb(source)) await copyBelow(dirname(source), folder);
+    if (!isGlb(source)) await copyAround(source, folder);
     const result = join(folder, basename(source));
-    await rm(result, { force: true });
     let told;
     try {
         const { stdout } = await run(program, ["scene", source, result]);

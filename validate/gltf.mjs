@@ -11,7 +11,7 @@ import { isDeepStrictEqual, promisify } from "node:util";
 
 import { Glb } from "./glb.mjs";
 import { make } from "./made.mjs";
-import { copyBelow, filesBelow, findings, isError, isGlb, jsonOf, names } from "./reading.mjs";
+import { copyAround, filesBelow, findings, isError, isGlb, jsonOf, names } from "./reading.mjs";
 import { differences, load } from "./three.mjs";
 
 const [program, data] = process.argv.slice(2);
@@ -105,9 +105,8 @@ async function check(source, name, scratch, tally) {
     await rm(folder, { recursive: true, force: true });
     await mkdir(folder);
     // The program does not write textures: everything beside the source is copied as well.
-    if (!isGlb(source)) await copyBelow(dirname(source), folder);
+    if (!isGlb(source)) await copyAround(source, folder);
     const result = join(folder, basename(source));
-    await rm(result, { force: true });
     try {
         await run(program, ["optimize", source, "-o", result, "--quiet"]);
     } catch (error) {

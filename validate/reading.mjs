@@ -1,7 +1,7 @@
 // What the checks of glTF files share: the files, their JSON, and what the Khronos validator finds.
 
-import { copyFile, mkdir, readdir, readFile } from "node:fs/promises";
-import { dirname, join, relative } from "node:path";
+import { copyFile, mkdir, readdir, readFile, rm } from "node:fs/promises";
+import { basename, dirname, join, relative } from "node:path";
 
 import validator from "gltf-validator";
 
@@ -18,11 +18,26 @@ export async function filesBelow(folder) {
 }
 
 /** Copies all files; the folders may be written, whatever those of the source may. */
-export async function copyBelow(from, to) {
+async function copyBelow(from, to) {
     for (const entry of await readdir(from, { recursive: true, withFileTypes: true })) {
         const target = join(to, relative(from, entry.parentPath));
         await mkdir(target, { recursive: true });
         if (entry.isFile()) await copyFile(join(entry.parentPath, entry.name), join(target, entry.name));
+    }
+}
+
+/**
+ * Copies all that stands beside a .gltf but the file itself and its buffers: those are written with it, and
+ * would not be written over the files of somebody else.
+ */
+export async function copyAround(source, folder) {
+    await copyBelow(dirname(source), folder);
+    await rm(join(folder, basename(source)), { force: true });
+    const { buffers } = await jsonOf(source).catch(() => ({}));
+    for (const { uri } of Array.isArray(buffers) ? buffers : []) {
+        // Names that are not plain are left: what they stand for may be anywhere.
+        const isPlain = typeof uri === "string" && /^[\w. -]+(\/[\w. -]+)*$/.test(uri) && !uri.includes("..");
+        if (isPlain) await rm(join(folder, uri), { force: true });
     }
 }
 
