@@ -88,6 +88,8 @@ fn optimize(
         renamed = written.renamed;
     }
     if let Some(file) = &arguments.write_permutation {
+        // A buffer that was just written may have that name.
+        PERMUTATION.check(file, arguments.run.force)?;
         let text = report.permutations_to_json();
         fs::write(file, text).with_context(|| file.display().to_string())?;
     }

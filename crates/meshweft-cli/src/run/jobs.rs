@@ -70,6 +70,21 @@ impl Jobs {
             list.push(job);
         }
 
+        // No job writes over what another one reads.
+        if output.is_some() {
+            let inputs: BTreeSet<PathBuf> =
+                list.iter().filter_map(|job| whole(&job.input)).collect();
+            let taken = |job: &&Job| whole(&job.target).is_some_and(|to| inputs.contains(&to));
+            if let Some(job) = list.iter().find(taken) {
+                return Err(Usage(format!(
+                    "{} would be written over by {}, and is an input too: choose another output",
+                    job.target.display(),
+                    job.input.display()
+                ))
+                .into());
+            }
+        }
+
         // The share is taken last: all shares of a run are checked as a whole.
         if let Some(shard) = run.shard {
             list = shard.of(list);
@@ -109,6 +124,11 @@ impl Job {
 }
 
 /// Whether an output is a folder, or is to become one.
+/// The one name of a file that is there.
+fn whole(path: &Path) -> Option<PathBuf> {
+    fs::canonicalize(path).ok()
+}
+
 /// The inputs and outputs of jobs.
 pub(crate) fn names_of(jobs: &[Job]) -> impl Iterator<Item = &Path> {
     jobs.iter()

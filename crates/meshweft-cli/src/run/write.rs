@@ -45,10 +45,7 @@ pub(crate) fn write(
     let file = target.display();
     let note = |(old, new): &(_, String)| {
         let old: &std::path::PathBuf = old;
-        format!(
-            "note: {file}: its buffer {} is now called {new}",
-            old.display()
-        )
+        format!("{file}: its buffer {} is now called {new}", old.display())
     };
     Ok(Written {
         bytes: written.bytes,

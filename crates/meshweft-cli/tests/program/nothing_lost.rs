@@ -83,6 +83,19 @@ fn lists_orders_and_plots_replace_nothing_else() {
 }
 
 #[test]
+fn no_job_writes_over_the_input_of_another() {
+    let folder = Folder::new("other-input");
+    fs::create_dir_all(folder.0.join("new")).unwrap();
+    fs::create_dir_all(folder.0.join("old")).unwrap();
+    folder.write("new/a.obj", strip());
+    folder.write("old/a.obj", format!("{}f 1 2 4\n", strip()));
+    let before = folder.read("old/a.obj");
+    let run = folder.run(&["optimize", "new", "old/a.obj", "-o", "old"]);
+    assert_eq!(run.code(), 2, "{}", run.err());
+    assert_eq!(folder.read("old/a.obj"), before);
+}
+
+#[test]
 fn a_dry_run_makes_no_list() {
     let folder = Folder::new("dry-list");
     folder.write("mesh.obj", strip());

@@ -190,6 +190,10 @@ fn spelled_out(folder: &Path) -> &Path {
 
 /// Whether a file has these bytes, decompressed if its name ends in `.gz`.
 pub(super) fn holds(path: &Path, bytes: &[u8]) -> io::Result<bool> {
+    // A pipe would be waited for.
+    if !fs::metadata(path)?.is_file() {
+        return Ok(false);
+    }
     let (mut source, size) = source(path)?;
     if !is_gzip(path) && size != bytes.len() as u64 {
         return Ok(false);
@@ -266,6 +270,7 @@ pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf
 /// # Errors
 /// What the system says.
 pub fn copy_file(from: &Path, to: &Path) -> io::Result<u64> {
+    check_link(to, to.parent().unwrap_or(Path::new("")))?;
     let mut source = fs::File::open(from)?;
     let mut new = Temporary::empty(to)?;
     io::copy(&mut source, &mut new.file)?;

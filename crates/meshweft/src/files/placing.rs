@@ -5,8 +5,8 @@
 //! that the old main file does not use; the main file, renamed last, then stands for all of them.
 
 use std::collections::BTreeSet;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use super::error::{FileErrorKind, Place, Problem};
 
@@ -67,6 +67,15 @@ impl Placement<'_> {
     /// # Errors
     /// A file has to be renamed and the name would not be UTF-8, or one that is there cannot be read.
     pub(super) fn place(&self, all: &[Beside<'_>]) -> Result<Vec<Placed>, Problem> {
+        let is_path = |beside: &Beside<'_>| self.path.with_file_name(beside.relative) == self.path;
+        if self.is_beside && all.iter().any(is_path) {
+            let feature = format!(
+                "{} is the name of a buffer of the file: choose another for the output",
+                self.path.display()
+            );
+            return Err(FileErrorKind::unsupported(feature).at(Place::File));
+        }
+
         let mut placed = Vec::with_capacity(all.len());
         for beside in all {
             placed.push(match self.alone(beside) {
@@ -148,7 +157,8 @@ impl Placement<'_> {
                            another name";
             FileErrorKind::unsupported(feature).at(Place::File)
         })?;
-        let stem = stem(name);
+        // Characters that URIs of files cannot have.
+        let stem = stem(name).replace([':', '\\'], "_");
 
         // The short name, unless the old main file, or the document, calls something else so.
         let renamed =
@@ -201,6 +211,21 @@ fn stem(name: &str) -> &str {
         Some(ending) => &name[..name.len() - ending.len()],
         None => name.split_once('.').map_or(name, |(stem, _)| stem),
     }
+}
+
+/// Whether a file is called after what is in it: then it was made by [`Placement::place`].
+pub(super) fn is_made_here(path: &Path) -> bool {
+    let digits = || {
+        let name = path.file_name()?.to_str()?.strip_suffix(".bin")?;
+        let (_, digits) = name.rsplit_once('.')?;
+        Some(digits).filter(|digits| (8..=16).contains(&digits.len()))
+    };
+    let Some(digits) = digits() else {
+        return false;
+    };
+    let is_file = fs::metadata(path).is_ok_and(|data| data.is_file());
+    let bytes = is_file.then(|| fs::read(path).ok()).flatten();
+    bytes.is_some_and(|bytes| format!("{:016x}", content_hash(&bytes)).starts_with(digits))
 }
 
 /// 64 bits of what is in a file (FNV-1a): the same content has the same name.

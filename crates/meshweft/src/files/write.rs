@@ -9,7 +9,7 @@ use super::document::{Document, folder_of};
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::gltf;
-use super::placing::{Placed, Placement};
+use super::placing::{Placed, Placement, is_made_here};
 use crate::limits::Limits;
 
 /// What [`Document::write`] has written.
@@ -51,8 +51,9 @@ impl Document {
     ///
     /// In the folder that its buffers were read from, those that have not changed are left alone. Another
     /// buffer keeps its name if it is the only file that changes, or if nothing has that name; else it is
-    /// called `name.bin` after `path`, or `name.0123abcd.bin` after what is in it. Buffers that the file at
-    /// `path` named before, and now does not, are removed, unless another glTF of the folder names them.
+    /// called `name.bin` after `path`, or `name.0123abcd.bin` after what is in it. Of the buffers that the
+    /// file at `path` named before, and now does not, those with such digits are removed, unless another
+    /// glTF of the folder names them; others stay.
     ///
     /// A name that ends in `.gz` is compressed.
     ///
@@ -80,8 +81,14 @@ impl Document {
                 .map(|b| path.with_file_name(b.relative))
                 .collect(),
             false if beside.is_empty() || !path.exists() => Vec::new(),
-            // A file that is not a glTF names nothing.
-            false => gltf::external_buffers(path, &Limits::default()).unwrap_or_default(),
+            // A file that is not a glTF names nothing; what others name too is not its own.
+            false => {
+                let named = gltf::external_buffers(path, &Limits::default()).unwrap_or_default();
+                let others = gltf::named_by_others(path);
+                let is_own =
+                    |buffer: &PathBuf| others.as_ref().is_some_and(|o| !o.contains(buffer));
+                named.into_iter().filter(is_own).collect()
+            }
         };
         let placement = Placement {
             path,
@@ -119,14 +126,18 @@ impl Document {
         }
     }
 
-    /// Removes buffers, unless a glTF of the folder names them.
+    /// Removes buffers that were made and named here, unless another glTF of the folder may need them.
     fn remove_left_over(&self, files: &[PathBuf], main: &Path) {
-        if files.is_empty() {
+        let made: Vec<&PathBuf> = files.iter().filter(|file| is_made_here(file)).collect();
+        if made.is_empty() {
             return;
         }
-        let named = gltf::buffers_of_folder(folder_of(main));
-        let is_free = |file: &&PathBuf| !named.contains(*file);
-        let free: Vec<PathBuf> = files.iter().filter(is_free).cloned().collect();
+        // One that cannot be read may name anything.
+        let Some(others) = gltf::named_by_others(main) else {
+            return;
+        };
+        let free = made.into_iter().filter(|file| !others.contains(*file));
+        let free: Vec<PathBuf> = free.cloned().collect();
         remove(&free);
     }
 

@@ -36,10 +36,14 @@ fn two_changed_buffers_get_new_names_and_the_text_is_the_commit() {
     let written = ordered(&source).write(&source).unwrap();
     let names = named_after(&folder, "scene");
     assert_eq!(names.len(), 2);
-    assert_eq!(
-        folder.files(),
-        [&names[..], &["scene.gltf".to_owned()]].concat()
-    );
+    // The old ones are the user's: nobody knows who else reads them.
+    let with = |names: &[String]| {
+        let old = ["a.bin", "b.bin", "scene.gltf"].map(str::to_owned);
+        let mut files = [&old[..], names].concat();
+        files.sort();
+        files
+    };
+    assert_eq!(folder.files(), with(&names));
     assert_eq!(written.files.last().unwrap(), &source);
     assert_eq!(written.files.len(), 3);
     let after = Reader::of_file(&source, None);
@@ -52,10 +56,21 @@ fn two_changed_buffers_get_new_names_and_the_text_is_the_commit() {
     assert_eq!(named_after(&folder, "scene"), names);
     assert_eq!(fs::read(&source).unwrap(), text);
 
-    // Another order gives others, and the old ones go.
+    // Another order gives others, and those that were made before go.
     ordered(&source).write(&source).unwrap();
-    assert_eq!(folder.files().len(), 3);
-    assert_ne!(named_after(&folder, "scene"), names);
+    let others = named_after(&folder, "scene");
+    assert_eq!(folder.files(), with(&others));
+    assert!(others.iter().all(|name| !names.contains(name)));
+
+    // Unless somebody may need them: who names them, or cannot be read.
+    for text in [fs::read(&source).unwrap(), b"{,".to_vec()] {
+        let other = folder.0.join("other.gltf");
+        fs::write(&other, text).unwrap();
+        let names = named_after(&folder, "scene");
+        ordered(&source).write(&source).unwrap();
+        assert!(names.iter().all(|name| folder.0.join(name).exists()));
+        fs::remove_file(other).unwrap();
+    }
     assert!(before.triangles() == Reader::of_file(&source, None).triangles());
 }
 
@@ -107,12 +122,11 @@ fn a_file_of_another_document_is_never_replaced() {
     assert!(after[0].buffers != after[1].buffers);
 
     // Written again they keep their names; with other content the name says what is in it.
-    for (seed, expected) in [(2, "two.bin"), (3, "two.")] {
+    for (seed, count) in [(2, 4), (3, 5)] {
         let mut document = Document::open(&sources[1], Limits::default()).unwrap();
         random_orders(&mut document, seed);
         document.write(&out.join("two.gltf")).unwrap();
-        assert_eq!(files().len(), 4, "{:?}", files());
-        assert!(files()[2].starts_with(expected), "{:?}", files());
+        assert_eq!(files().len(), count, "{:?}", files());
         let two = Reader::of_file(&out.join("two.gltf"), None);
         assert!(before.triangles() == two.triangles());
         assert!(after[0].buffers == Reader::of_file(&out.join("one.gltf"), None).buffers);
@@ -126,6 +140,57 @@ fn a_file_of_another_document_is_never_replaced() {
     assert_eq!(fs::read(out.join("scene.bin")).unwrap(), b"mine");
     let three = Reader::of_file(&out.join("three.gltf"), None);
     assert!(before.triangles() == three.triangles());
+}
+
+#[test]
+fn a_buffer_that_another_scene_names_is_not_replaced() {
+    let folder = Folder::new("shared-output");
+    let source = external(&folder, "scene.bin", "scene.bin");
+    let out = folder.0.join("out");
+    fs::create_dir_all(&out).unwrap();
+    for name in ["one.gltf", "two.gltf"] {
+        // The same content: they share a buffer.
+        ordered(&source).write(&out.join(name)).unwrap();
+    }
+    let two = Reader::of_file(&out.join("two.gltf"), None);
+    let mut document = Document::open(&source, Limits::default()).unwrap();
+    random_orders(&mut document, 9);
+    document.write(&out.join("one.gltf")).unwrap();
+    assert!(two.buffers == Reader::of_file(&out.join("two.gltf"), None).buffers);
+    let one = Reader::of_file(&out.join("one.gltf"), None);
+    assert!(one.triangles() == two.triangles() && one.buffers != two.buffers);
+}
+
+#[test]
+fn the_buffer_of_the_source_stays_whatever_the_output_named() {
+    let folder = Folder::new("names-source");
+    let source = external(&folder, "scene.bin", "scene.bin");
+    let before = Reader::of_file(&source, None);
+
+    // An old output that reads the source's own buffer.
+    let elsewhere = folder.0.join("up.gltf");
+    let inner = folder.0.join("inner");
+    fs::create_dir_all(&inner).unwrap();
+    let moved = inner.join("scene.gltf");
+    fs::rename(&source, &moved).unwrap();
+    fs::rename(folder.0.join("scene.bin"), inner.join("scene.bin")).unwrap();
+    let text = fs::read_to_string(&moved).unwrap();
+    fs::write(&elsewhere, text.replace("scene.bin", "inner/scene.bin")).unwrap();
+    ordered(&moved).write(&elsewhere).unwrap();
+    assert!(before.buffers == Reader::of_file(&moved, None).buffers);
+    assert!(before.triangles() == Reader::of_file(&elsewhere, None).triangles());
+
+    // An output that has the name of the buffer.
+    let named = inner.join("x.gltf");
+    fs::copy(inner.join("scene.bin"), &named).unwrap();
+    let other = inner.join("other.gltf");
+    fs::write(&other, text.replace("scene.bin", "x.gltf")).unwrap();
+    let error = ordered(&other).write(&named).unwrap_err().to_string();
+    assert!(
+        error.contains("is the name of a buffer of the file"),
+        "{error}"
+    );
+    assert!(before.buffers == Reader::of_file(&other, None).buffers);
 }
 
 #[test]

@@ -69,9 +69,9 @@ mod strided_records;
 mod uri;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::{fmt, fs, io};
 
 use super::content::{Content, OutputFile, ReadResult};
 use super::disk::{files_of, read_limited, read_start};
@@ -218,6 +218,11 @@ fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, 
 pub fn external_buffers(path: &Path, limits: &Limits) -> Result<Vec<PathBuf>, FileError> {
     let format = Format::of_path(path);
     let read = || {
+        // A pipe would be waited for.
+        if fs::metadata(path).is_ok_and(|data| !data.is_file()) {
+            let error = io::Error::other("it is not a file");
+            return Err(FileErrorKind::Io(error).at(Place::File));
+        }
         let bytes = match format {
             // The binary chunk of a GLB may be large, and is of no use here.
             Some(Format::Glb) => read_start(path, limits, Container::json_end),
@@ -234,16 +239,19 @@ pub fn external_buffers(path: &Path, limits: &Limits) -> Result<Vec<PathBuf>, Fi
     read().map_err(|problem: Problem| problem.in_file(path, format))
 }
 
-/// The files that the buffers of the glTF files of a folder name; of what cannot be read, none.
-pub(super) fn buffers_of_folder(folder: &Path) -> BTreeSet<PathBuf> {
-    let paths = files_of(folder).into_iter();
-    let gltf = paths.filter(|path| {
-        let format = Format::of_path(path);
-        matches!(format, Some(Format::Gltf | Format::Glb))
-    });
-    let named =
-        gltf.flat_map(|path| external_buffers(&path, &Limits::default()).unwrap_or_default());
-    named.collect()
+/// The files that the buffers of the other glTF files of a folder name; `None` if one of them cannot be
+/// read.
+pub(super) fn named_by_others(path: &Path) -> Option<BTreeSet<PathBuf>> {
+    let is_gltf = |other: &PathBuf| {
+        let format = Format::of_path(other);
+        matches!(format, Some(Format::Gltf | Format::Glb)) && other.file_name() != path.file_name()
+    };
+    let others = files_of(path.parent().unwrap_or(Path::new("")));
+    let mut named = BTreeSet::new();
+    for other in others.into_iter().filter(is_gltf) {
+        named.extend(external_buffers(&other, &Limits::default()).ok()?);
+    }
+    Some(named)
 }
 
 /// Refuses a file that says it is not of glTF 2.
