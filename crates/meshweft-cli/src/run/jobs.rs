@@ -40,7 +40,7 @@ impl Jobs {
             return Err(Usage(text.into()).into());
         }
 
-        // An output folder of an earlier run is no input, even within a folder that is.
+        // An output folder of an earlier run is not an input, even within a folder that is one.
         let inputs = inputs::expand(names, output)?;
         let is_one_file = inputs.len() == 1 && names[0] == inputs[0].path;
         if !is_one_file && output.is_some_and(is_file) {
@@ -100,11 +100,9 @@ impl Jobs {
 impl Job {
     /// Refuses a target that is the input: that takes `--in-place`.
     fn check_that_input_stays(&self) -> Result<(), Usage> {
-        // Most targets do not exist yet, and then are no input either.
-        let is_same =
-            |a: &Path, b: &Path| Some(fs::canonicalize(a).ok()? == fs::canonicalize(b).ok()?);
-        match is_same(&self.target, &self.input) {
-            Some(true) => Err(Usage(format!(
+        // Most targets do not exist yet, and then are not an input either.
+        match whole(&self.target) {
+            target @ Some(_) if target == whole(&self.input) => Err(Usage(format!(
                 "{} is the input itself: use --in-place to replace it",
                 self.target.display()
             ))),
@@ -123,7 +121,6 @@ impl Job {
     }
 }
 
-/// Whether an output is a folder, or is to become one.
 /// The one name of a file that is there.
 fn whole(path: &Path) -> Option<PathBuf> {
     fs::canonicalize(path).ok()
@@ -135,6 +132,7 @@ pub(crate) fn names_of(jobs: &[Job]) -> impl Iterator<Item = &Path> {
         .flat_map(|job| [job.input.as_path(), &job.target])
 }
 
+/// Whether an output is a folder, or is to become one.
 fn is_folder(out: &Path) -> bool {
     out.is_dir() || out.as_os_str().as_encoded_bytes().ends_with(b"/")
 }

@@ -67,13 +67,16 @@ impl Manifest {
         self.done.contains(&pair) && output.exists()
     }
 
-    /// Adds the line of an input: the sums of its report, as JSON, or why it failed.
+    /// Adds the line of an input, unless nothing is to be written: the sums of its report, as JSON, or why it failed.
     pub(super) fn add(
         &self,
         input: &Path,
         output: &Path,
         result: Result<&str, String>,
     ) -> Result<()> {
+        let Some(file) = &self.file else {
+            return Ok(());
+        };
         let mut line = json!({
             "schema": SCHEMA,
             "file": input.display().to_string(),
@@ -92,9 +95,6 @@ impl Manifest {
 
         // In one write: no other thread's line comes in between.
         let line = format!("{line}\n");
-        let Some(file) = &self.file else {
-            return Ok(());
-        };
         let mut file = file.lock().unwrap_or_else(|lock| lock.into_inner());
         file.write_all(line.as_bytes())
             .with_context(|| self.path.display().to_string())

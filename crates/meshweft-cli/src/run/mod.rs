@@ -70,7 +70,7 @@ pub(crate) fn over_files(
         }
 
         let done = workers.pool()?.install(|| work(job));
-        if let (Some(manifest), false) = (&manifest, run.dry_run) {
+        if let Some(manifest) = &manifest {
             list_in(manifest, job, &done)?;
         }
         done

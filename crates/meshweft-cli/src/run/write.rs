@@ -1,7 +1,7 @@
 //! Writing the result of a job.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use meshweft::files::{Document, Format, copy_file, is_gzip};
@@ -43,8 +43,7 @@ pub(crate) fn write(
     }
     let written = document.write(target)?;
     let file = target.display();
-    let note = |(old, new): &(_, String)| {
-        let old: &std::path::PathBuf = old;
+    let note = |(old, new): &(PathBuf, String)| {
         format!("{file}: its buffer {} is now called {new}", old.display())
     };
     Ok(Written {

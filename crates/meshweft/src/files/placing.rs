@@ -69,11 +69,7 @@ impl Placement<'_> {
     pub(super) fn place(&self, all: &[Beside<'_>]) -> Result<Vec<Placed>, Problem> {
         let is_path = |beside: &Beside<'_>| self.path.with_file_name(beside.relative) == self.path;
         if self.is_beside && all.iter().any(is_path) {
-            let feature = format!(
-                "{} is the name of a buffer of the file: choose another for the output",
-                self.path.display()
-            );
-            return Err(FileErrorKind::unsupported(feature).at(Place::File));
+            return Err(name_of_a_buffer(self.path));
         }
 
         let mut placed = Vec::with_capacity(all.len());
@@ -200,6 +196,15 @@ impl Placement<'_> {
             FileErrorKind::unsupported(feature).at(Place::File)
         })
     }
+}
+
+/// The error for a main file with the name of one beside it.
+pub(super) fn name_of_a_buffer(path: &Path) -> Problem {
+    let feature = format!(
+        "{} is the name of a buffer of the file: choose another for the output",
+        path.display()
+    );
+    FileErrorKind::unsupported(feature).at(Place::File)
 }
 
 /// A file name without what says its format.

@@ -244,19 +244,16 @@ impl Growth {
 
     /// Undoes [`add`](Self::add).
     fn take_back(&self, buffers: &mut Buffers, was_changed: bool) {
-        match self.storage {
-            GrowingStorage::Named(_) => {}
-            GrowingStorage::Unnamed(_) => buffers.forget_name(self.buffer),
-            GrowingStorage::New(_) => {
-                buffers.forget_name(self.buffer);
-                buffers.storages.pop();
-                return;
-            }
+        if !matches!(self.storage, GrowingStorage::Named(_)) {
+            buffers.forget_name(self.buffer);
         }
-        if let GrowingStorage::Named(storage) | GrowingStorage::Unnamed(storage) = self.storage {
-            let storage = &mut buffers.storages[storage];
-            storage.is_changed = was_changed;
-            storage.bytes.truncate(self.old_length);
+        match self.storage {
+            GrowingStorage::Named(storage) | GrowingStorage::Unnamed(storage) => {
+                let storage = &mut buffers.storages[storage];
+                storage.is_changed = was_changed;
+                storage.bytes.truncate(self.old_length);
+            }
+            GrowingStorage::New(_) => drop(buffers.storages.pop()),
         }
     }
 }

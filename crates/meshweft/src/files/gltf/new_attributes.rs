@@ -2,6 +2,7 @@
 
 use serde_json::{Value as NewJson, json};
 
+use super::accessors::{BYTE, FLOAT, SHORT, UNSIGNED_BYTE, UNSIGNED_SHORT};
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use crate::files::error::FileErrorKind;
 
@@ -102,7 +103,7 @@ pub(super) fn accessor_of(attribute: &Attribute) -> Result<NewAccessor, FileErro
 }
 
 /// The number of its component type, if glTF allows it for what it means.
-fn check(info: &AttributeInfo) -> Result<u32, FileErrorKind> {
+fn check(info: &AttributeInfo) -> Result<usize, FileErrorKind> {
     let name = &info.semantic;
     let refused = |text: String| Err(FileErrorKind::unsupported(text));
     if info.domain != Domain::Vertex {
@@ -114,11 +115,11 @@ fn check(info: &AttributeInfo) -> Result<u32, FileErrorKind> {
     }
 
     let component_type = match info.component_type {
-        ComponentType::I8 => 5120,
-        ComponentType::U8 => 5121,
-        ComponentType::I16 => 5122,
-        ComponentType::U16 => 5123,
-        ComponentType::F32 => 5126,
+        ComponentType::I8 => BYTE,
+        ComponentType::U8 => UNSIGNED_BYTE,
+        ComponentType::I16 => SHORT,
+        ComponentType::U16 => UNSIGNED_SHORT,
+        ComponentType::F32 => FLOAT,
         other => {
             return refused(format!(
                 "{name} has components of type {other:?}, which glTF does not store: convert them to \
@@ -127,8 +128,9 @@ fn check(info: &AttributeInfo) -> Result<u32, FileErrorKind> {
         }
     };
 
-    let is_real = component_type == 5126;
-    let is_fraction = info.is_normalized && matches!(component_type, 5121 | 5123);
+    let is_real = component_type == FLOAT;
+    let is_fraction =
+        info.is_normalized && matches!(component_type, UNSIGNED_BYTE | UNSIGNED_SHORT);
     let is_morph = info.morph_target.is_some();
     let (components, is_allowed) = match &info.semantic {
         Semantic::Position | Semantic::Normal => (3..=3, is_real),
@@ -138,7 +140,7 @@ fn check(info: &AttributeInfo) -> Result<u32, FileErrorKind> {
         Semantic::Color(_) => (3..=4, is_real || is_fraction),
         Semantic::Joints(_) => (
             4..=4,
-            matches!(component_type, 5121 | 5123) && !info.is_normalized,
+            matches!(component_type, UNSIGNED_BYTE | UNSIGNED_SHORT) && !info.is_normalized,
         ),
         Semantic::Weights(_) => (4..=4, is_real || is_fraction),
         Semantic::Other(name) => (1..=4, name.starts_with('_')),

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value as NewJson, json};
 
+use super::accessors::{UNSIGNED_INT, UNSIGNED_SHORT};
 use super::additions::Additions;
 use super::json::Value;
 use super::movable::PrimitiveNumber;
@@ -31,8 +32,8 @@ pub(super) struct NewMeshes<'a> {
     /// The buffer that the bytes go to, and where in it they start.
     buffer: usize,
     start: usize,
-    pub(super) bytes: Vec<u8>,
-    pub(super) additions: Additions,
+    bytes: Vec<u8>,
+    additions: Additions,
     next_view: usize,
     next_accessor: usize,
     next_mesh: usize,
@@ -176,7 +177,7 @@ impl<'a> NewMeshes<'a> {
         let view = self.view(&bytes, INDICES, None);
         self.accessor(&json!({
             "bufferView": view,
-            "componentType": if is_short { 5123 } else { 5125 },
+            "componentType": if is_short { UNSIGNED_SHORT } else { UNSIGNED_INT },
             "count": corners.len(),
             "type": "SCALAR",
         }))

@@ -10,8 +10,8 @@ use super::buffers::{Buffers, Source, Storage};
 use super::container::Container;
 use super::uri::percent_encoded;
 use crate::files::content::{OutputFile, OutputPlace};
-use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::files::placing::{Beside, Placed};
+use crate::files::error::Problem;
+use crate::files::placing::{Beside, Placed, name_of_a_buffer};
 
 /// What is needed to write the file again.
 pub(super) struct Output<'a> {
@@ -144,11 +144,7 @@ fn buffer_file<'a>(
     };
     let path = main.with_file_name(relative);
     if path == main {
-        let feature = format!(
-            "{} is the name of a buffer of the file: choose another for the output",
-            main.display()
-        );
-        return Err(FileErrorKind::unsupported(feature).at(Place::File));
+        return Err(name_of_a_buffer(main));
     }
     Ok(OutputFile {
         path,

@@ -201,7 +201,7 @@ fn joined(scalars: impl Iterator<Item = ComponentType>) -> Option<ComponentType>
     scalars.reduce(join)
 }
 
-fn is_unsigned(component: ComponentType) -> bool {
+pub(super) fn is_unsigned(component: ComponentType) -> bool {
     matches!(
         component,
         ComponentType::U8 | ComponentType::U16 | ComponentType::U32

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::attributes::{COLORS, TEXTURES};
+use super::attributes::{COLORS, TEXTURES, is_unsigned};
 use crate::attribute::{Attribute, ComponentType, Domain, Semantic, Values};
 use crate::files::error::FileErrorKind;
 use crate::files::new_mesh::{NewMesh, NewVertices, vertex_count};
@@ -130,10 +130,6 @@ fn names_of(attribute: &Attribute) -> Result<Vec<String>, FileErrorKind> {
     }
 
     // The names that have a meaning.
-    let is_unsigned = matches!(
-        info.component_type,
-        ComponentType::U8 | ComponentType::U16 | ComponentType::U32
-    );
     let known: Option<&[&str]> = match *semantic {
         Semantic::Position => Some(&["x", "y", "z"]),
         Semantic::Normal => Some(&["nx", "ny", "nz"]),
@@ -142,7 +138,7 @@ fn names_of(attribute: &Attribute) -> Result<Vec<String>, FileErrorKind> {
         _ => None,
     };
     let is_color = matches!(semantic, Semantic::Color(_));
-    if info.is_normalized != (is_color && is_unsigned) {
+    if info.is_normalized != (is_color && is_unsigned(info.component_type)) {
         return refused(format!(
             "{semantic}: in a PLY file colors of unsigned integers are fractions, and nothing else is; \
              convert it to floats"
