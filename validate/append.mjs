@@ -156,7 +156,7 @@ function compareFindings(name, before, after, json, tally) {
 async function check(source, name, folder, tally) {
     await rm(folder, { recursive: true, force: true });
     await mkdir(folder, { recursive: true });
-    // Textures are not written by the program, so all that stands beside the source comes along.
+    // Textures are not written by the program, so the other files of the source's folder are copied.
     if (!isGlb(source)) await copyAround(source, folder);
     const result = join(folder, basename(source));
     let told;
@@ -195,7 +195,7 @@ async function checkCreated(folder, tally) {
     await run(program, ["create", folder]);
     for (const name of ["new.glb", "new.gltf"]) {
         const { messages } = await findings(join(folder, name), name);
-        // An attribute that no material needs is no fault.
+        // An attribute that no material needs is not a fault.
         const faults = messages.filter(({ severity, code }) => severity !== INFORMATION || !code.startsWith("UNUSED_"));
         for (const { code, pointer, message } of faults) tally.problems.push(`${name}: ${code} at ${pointer}: ${message}`);
         const { gltf, primitives } = await loadScene(join(folder, name));

@@ -46,7 +46,7 @@ class Made:
         return len(self.views) - 1
 
     def numbers(self, kind: str, shape: str, count: int) -> np.ndarray:
-        """Random elements, one a row; any bits will do, so floats may be no numbers."""
+        """Random elements, one a row; any bits will do, so floats may be NaN."""
         columns, rows = SHAPES[shape]
         width = np.dtype(kind).itemsize
         return np.frombuffer(self.random.bytes(count * columns * rows * width), f"<{kind}").reshape(count, -1)

@@ -51,7 +51,7 @@ def off(file: Path) -> Columns:
     if end:
         columns["TEXCOORD_0", "vertex"] = single(table(line[end:] for line in rows[0]))
 
-    # Behind its corners a face may have a colour, which all of its triangles have.
+    # After its corners a face may have a colour, which all of its triangles have.
     corners = [int(line[0]) for line in rows[1]]
     behind = [line[1 + count :] for line, count in zip(rows[1], corners, strict=True)]
     if behind and len(behind[0]) in (3, 4):

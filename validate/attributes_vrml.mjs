@@ -134,7 +134,7 @@ async function check(file, name, scratch) {
     if (meshes === null) return;
     const stored = await readFile(file);
     const all = theirs((/\.gz$/.test(file) ? gunzipSync(stored) : stored).toString());
-    // One without faces is no mesh.
+    // One without faces is not a mesh.
     const geometries = all.filter((geometry) => geometry.attributes.position.count > 0);
     if (geometries.length < all.length) leaveOut("face sets without faces", all.length - geometries.length);
     if (meshes.length !== geometries.length) {

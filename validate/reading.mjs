@@ -27,7 +27,7 @@ async function copyBelow(from, to) {
 }
 
 /**
- * Copies all that stands beside a .gltf but the file itself and its buffers: those are written with it, and
+ * Copies the folder of a .gltf, but not the file itself and its buffers: those are written with it, and
  * would not be written over the files of somebody else.
  */
 export async function copyAround(source, folder) {
@@ -61,7 +61,7 @@ export async function findings(file, uri) {
     });
     return validated.then(
         (report) => ({ messages: report.issues.messages, counts: JSON.stringify(report.info) }),
-        // What is no glTF at all makes no report.
+        // A file that is not a glTF makes no report.
         (error) => ({ messages: [{ severity: 0, code: "NOT_READ", message: String(error) }], counts: "" }),
     );
 }

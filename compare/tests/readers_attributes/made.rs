@@ -17,7 +17,7 @@ impl Random {
         *state >> 24
     }
 
-    /// A fraction that is no round number.
+    /// A fraction that is not a round number.
     fn fraction(&mut self) -> f64 {
         let whole = u32::try_from(self.next() % 2_000_001).expect("it is small");
         (f64::from(whole) - 1_000_000.0) / 977.0
@@ -165,7 +165,7 @@ fn ply_file(format: &str, encoding: Encoding) -> Vec<u8> {
         body.end_row();
     }
 
-    // The faces, with other numbers before and behind their corners.
+    // The faces, with other numbers before and after their corners.
     for polygon in polygons {
         let count = u8::try_from(polygon.len()).expect("few corners");
         body.add("uint");

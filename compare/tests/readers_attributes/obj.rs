@@ -107,7 +107,7 @@ fn compare(file: &Opened, tally: &mut Tally) -> Result<(), String> {
         tally.leave_out(1, &format!("{semantic} that only some corners have"));
     }
 
-    // Vertices are compared as corners, so those that are no corner are not.
+    // Vertices are compared as corners, so those that are not a corner are not.
     let mesh = &file.document.meshes()[0].mesh;
     let mut is_named = vec![false; mesh.vertex_count()];
     for &vertex in mesh.faces().as_flattened() {

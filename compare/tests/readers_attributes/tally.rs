@@ -157,7 +157,7 @@ impl Tally {
         }
     }
 
-    /// Compares the values of an attribute, elements of so many components as bits.
+    /// Compares the values of an attribute, elements of several components, as bits.
     ///
     /// # Panics
     /// If they differ: with the first element that does.

@@ -104,7 +104,7 @@ pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Stored, FileE
 /// What a file in a folder or below holds.
 ///
 /// # Errors
-/// As [`read_limited`]; it is no file, such as a pipe, or a link that leads out of the folder.
+/// As [`read_limited`]; it is not a file, but for example a pipe, or a link that leads out of the folder.
 pub(super) fn read_below(
     folder: &Path,
     relative: &Path,

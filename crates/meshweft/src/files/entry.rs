@@ -89,7 +89,7 @@ impl MeshEntry {
             self.order_run(start..end, &mut local_of, &mut face_order, emit);
         }
 
-        // A record that is no triangle is never turned.
+        // A record that is not a triangle is never turned.
         if !turn || rotations.iter().all(|&r| r == 0) {
             rotations.clear();
         }

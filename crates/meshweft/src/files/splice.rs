@@ -61,7 +61,7 @@ impl<'a> Layer<'a> {
     }
 }
 
-/// Writes the bytes `range` of `source`, with the slots of all layers filled anew.
+/// Writes the bytes `range` of `source`, with the slots of all layers filled again.
 ///
 /// Slots lie within `range` and do not overlap, within a layer or between two.
 pub(super) fn splice(

@@ -207,7 +207,7 @@ fn buffers_beside_the_file_grow_where_they_may() {
         fs::create_dir_all(folder).unwrap();
     }
     let (builder, mut json) = scene(Some("data.bin"));
-    // Two buffers over one file, which has bytes behind both.
+    // Two buffers over one file, which has bytes after both.
     let length = builder.binary.len();
     json["buffers"] = json!([
         {"uri": "data.bin", "byteLength": length},

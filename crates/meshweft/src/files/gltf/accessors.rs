@@ -24,7 +24,7 @@ pub(super) struct Accessor {
     pub(super) shape: Shape,
     pub(super) count: usize,
     pub(super) is_sparse: bool,
-    /// Its buffer view is compressed: the bytes are no records.
+    /// Its buffer view is compressed: the bytes are not records.
     pub(super) is_compressed: bool,
     /// The JSON states its smallest and largest values.
     pub(super) is_bounded: bool,
@@ -297,7 +297,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// The bytes of a buffer view (or of a compressed one's source) from `offset` on, `length` or all
-    /// of them, as one record. What is wrong is no error: bytes that are not there are left out.
+    /// of them, as one record. What is wrong is not an error: bytes that are not there are left out.
     pub(super) fn bytes_of_view(
         &self,
         view: Value<'_>,

@@ -236,7 +236,7 @@ impl<'a> GroupObstacles<'a> {
     }
 }
 
-/// Refuses the largest value of an index type: it restarts a strip and is no vertex.
+/// Refuses the largest value of an index type: it restarts a strip and is not a vertex.
 fn check_restart(numbers: &[u32], list: &IndexList, primitive: &Movable) -> Result<(), Problem> {
     let restart = patch::largest_number(&list.records);
     match numbers.contains(&restart) {

@@ -262,7 +262,7 @@ fn another_count(primitive: &Movable, group_count: usize) -> Option<String> {
         .indices
         .as_ref()
         .map_or(4, |list| list.records.size);
-    // The largest value of each type restarts a strip, so it is no vertex.
+    // The largest value of each type restarts a strip, so it is not a vertex.
     let most = match width {
         1 => usize::from(u8::MAX),
         2 => usize::from(u16::MAX),

@@ -59,7 +59,7 @@ fn permute_sized<const SIZE: usize>(
     }
 }
 
-/// Joins records that stand beside each other in one interleaved layout, to move them together;
+/// Joins records that are adjacent in one interleaved layout, to move them together;
 /// `all` is sorted.
 pub(super) fn join(all: &mut Vec<StridedRecords>) {
     let mut joined: Vec<StridedRecords> = Vec::with_capacity(all.len());

@@ -86,7 +86,7 @@ impl<'a> LiveFaces<'a> {
             vertex.white_corners = vertex.live.wrapping_mul(3);
         }
 
-        // Fill the rows from behind, which moves each `row_start` from the end to the start.
+        // Fill the rows from the end, which moves each `row_start` from the end to the start.
         let mut entries = vec![0; faces.len() * 3];
         let numbered = (0..index32(faces.len())).zip(faces).rev();
         let items = numbered.map(|(face, corners)| corners.map(|corner| (corner, face)));
@@ -230,7 +230,7 @@ impl<'a> LiveFaces<'a> {
     }
 }
 
-/// The dead-end stack of a live count; `usize::MAX`, which is no stack, for 0.
+/// The dead-end stack of a live count; `usize::MAX`, which is not a stack, for 0.
 #[inline]
 fn stack_of(live: u32) -> usize {
     (live as usize).min(STACKS).wrapping_sub(1)

@@ -147,7 +147,7 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
             vertex.missing_corners = vertex.live.wrapping_mul(2 * one_in_each);
         }
 
-        // Fill the rows from behind, which moves each `row_start` from the end to the start.
+        // Fill the rows from the end, which moves each `row_start` from the end to the start.
         let mut entries = vec![[0; 3]; faces.len() * 3];
         let numbered = (0..index32(faces.len())).zip(faces).rev();
         let items = numbered
