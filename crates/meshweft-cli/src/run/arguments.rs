@@ -72,6 +72,12 @@ pub(crate) struct Reading {
     /// Materials and smoothing groups are never crossed.
     #[arg(long)]
     across_groups: bool,
+    /// Move transparent faces too: drawn one over the other, they may look different then
+    ///
+    /// Transparent is what has a material with alphaMode BLEND, in any variant, or one whose .mtl has d
+    /// below 1, Tr above 0 or map_d.
+    #[arg(long)]
+    reorder_transparent: bool,
 }
 
 impl Reading {
@@ -83,6 +89,7 @@ impl Reading {
             .assume_order_safe
             .clone_from(&self.assume_order_safe);
         options.across_groups = self.across_groups;
+        options.reorder_transparent = self.reorder_transparent;
         options.keep_buffers = keep_buffers.to_vec();
         options
     }

@@ -96,6 +96,9 @@ pub(super) fn check_order(
         if !entry.keeps_runs(faces) {
             return unsupported("the order moves a face out of its run (group, material, …)");
         }
+        if !entry.faces_movable && !faces.is_identity() {
+            return unsupported("its faces must stay in their order");
+        }
         let turns = faces.rotations().iter().any(|&r| r != 0);
         if turns && (!entry.corners_turnable || entry.polygons.is_some()) {
             return unsupported("the order turns corners that must stay");

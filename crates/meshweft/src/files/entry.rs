@@ -26,6 +26,9 @@ pub struct MeshEntry {
     pub runs: Vec<u32>,
     /// Meshes with the same number share their vertices: a vertex order for one renumbers all.
     pub vertex_group: usize,
+    /// Whether face records may be moved and turned; not where the order of the faces is part of the
+    /// picture, as that of transparent ones.
+    pub faces_movable: bool,
     /// Whether the vertices may be moved.
     pub vertices_movable: bool,
     /// Whether a record's corners may be turned.
@@ -55,7 +58,7 @@ impl MeshEntry {
     /// `face_order` sees one run as a mesh of triangles over the vertices it uses and, if there are
     /// polygons, where the triangles of each start (and the end of the last). A polygon goes where
     /// the first of its triangles goes and is never turned; triangles are turned only if the file
-    /// allows it.
+    /// allows it. Where the faces must stay, `face_order` is not called.
     ///
     /// # Complexity
     /// That of `face_order` on each run, plus O(faces + vertices).
@@ -64,6 +67,9 @@ impl MeshEntry {
         mut face_order: impl FnMut(&Mesh, Option<&[u32]>) -> FaceOrder,
     ) -> FaceOrder {
         let record_count = self.record_count();
+        if !self.faces_movable {
+            return FaceOrder::identity(record_count);
+        }
         let turn = self.corners_turnable && self.polygons.is_none();
 
         // One run of triangles is the mesh itself.
@@ -256,6 +262,7 @@ mod tests {
             polygons,
             runs,
             vertex_group: 0,
+            faces_movable: true,
             vertices_movable: true,
             corners_turnable: true,
         }
@@ -291,6 +298,14 @@ mod tests {
         assert_eq!(entry.record_order(reversed).rotations(), [1, 1]);
         entry.corners_turnable = false;
         assert!(entry.record_order(reversed).rotations().is_empty());
+    }
+
+    #[test]
+    fn faces_that_must_stay_are_not_ordered() {
+        let mut entry = entry(vec![[0, 1, 2], [3, 4, 5]], None, vec![0]);
+        entry.faces_movable = false;
+        let order = entry.record_order(|_, _| unreachable!("nothing to order"));
+        assert!(order.is_identity() && order.len() == 2);
     }
 
     #[test]

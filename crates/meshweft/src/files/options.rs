@@ -30,6 +30,12 @@ pub struct ReadOptions {
     /// Let faces of an OBJ cross `g` and `o` lines, so that groups may lose and gain faces.
     /// Materials and smoothing groups are never crossed.
     pub across_groups: bool,
+    /// Let transparent faces be moved. They are drawn one over the other in their order, so without this
+    /// they keep it, with a note; their vertices may move.
+    ///
+    /// Transparent is what is drawn with a material of `alphaMode` `BLEND`, in any variant of the file, or
+    /// one whose `.mtl` has `d` below 1, `Tr` above 0 or `map_d`.
+    pub reorder_transparent: bool,
 }
 
 impl From<Limits> for ReadOptions {

@@ -169,6 +169,7 @@ impl Entries {
             mesh,
             polygons: None,
             vertex_group: group,
+            faces_movable: true,
             vertices_movable: primitive.indices.is_some(),
             corners_turnable: true,
         });

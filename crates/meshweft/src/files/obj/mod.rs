@@ -87,6 +87,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
             polygons: records.polygons,
             runs,
             vertex_group: 0,
+            faces_movable: true,
             vertices_movable,
         });
     }

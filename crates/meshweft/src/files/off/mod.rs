@@ -71,6 +71,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
             mesh,
             runs: vec![0],
             vertex_group: 0,
+            faces_movable: true,
             vertices_movable: true,
             corners_turnable: records.polygons.is_none(),
             polygons: records.polygons,

@@ -135,6 +135,7 @@ fn finish(bytes: Vec<u8>, header: PlyHeader, plan: Plan, body: Body) -> ReadResu
                 false => (0..index32(record_count)).collect(),
             },
             vertex_group: 0,
+            faces_movable: true,
             vertices_movable: plan.vertex_obstacle.is_none(),
         });
         notes.extend(

@@ -70,6 +70,7 @@ fn content<N: Notation + 'static>(
             polygons: None,
             runs: facets.runs,
             vertex_group: 0,
+            faces_movable: true,
             vertices_movable: false,
             corners_turnable: true,
         });

@@ -157,6 +157,7 @@ impl Binder<'_> {
             polygons: corners.records.polygons,
             runs,
             vertex_group: 0,
+            faces_movable: true,
             vertices_movable: vertices_stay.is_none(),
         };
         Ok(Bound {
