@@ -179,8 +179,9 @@ fn the_buffer_cannot_be_had() {
             "/buffers/0/uri: the data: URI is not base64: export it as base64 or as a file",
         ),
         (
-            json!({}),
-            "/buffers/0: the buffer has no uri, and no binary chunk stands for it",
+            json!({"uri": "sub\\d.bin"}),
+            "/buffers/0/uri: \"sub\\\\d.bin\" has a backslash, which separates no folders in a URI: write \
+             \"sub/d.bin\"",
         ),
     ];
     for (buffer, expected) in cases {

@@ -11,6 +11,7 @@ mod data;
 mod data_folder;
 #[path = "../files_errors/mod.rs"]
 mod errors;
+mod in_order;
 mod moves;
 mod nothing_lost;
 mod output;
@@ -48,17 +49,18 @@ impl Random {
     }
 }
 
-/// Applies a random order of faces, and of vertices where they can be moved, to every mesh.
+/// Applies a random order of faces and of vertices, where they can be moved, to every mesh.
 pub(crate) fn random_orders(document: &mut Document, seed: u64) {
     let mut random = Random(seed);
     for mesh in 0..document.meshes().len() {
         let entry = &document.meshes()[mesh];
         let faces = random.face_order(entry.record_count());
+        let faces = entry.faces_movable.then_some(faces);
         let vertices = entry
             .vertices_movable
             .then(|| VertexOrder::from(random.permutation(entry.mesh.vertex_count())));
         document
-            .edit(Edit::order(mesh, &faces, vertices.as_ref()))
+            .edit(Edit::order(mesh, faces.as_ref(), vertices.as_ref()))
             .unwrap();
     }
 }

@@ -55,6 +55,20 @@ impl Reader {
             .collect()
     }
 
+    /// The positions of what these primitives draw by indices, corner by corner in the order of the file.
+    pub(crate) fn drawn_in_order(&self, is_in_order: impl Fn(&Value) -> bool) -> Vec<Vec<u8>> {
+        let meshes = self.json["meshes"].as_array().into_iter().flatten();
+        let primitives = meshes.flat_map(|mesh| mesh["primitives"].as_array().unwrap());
+        let mut drawn = Vec::new();
+        for primitive in primitives.filter(|primitive| is_in_order(primitive)) {
+            let positions = self.elements(&primitive["attributes"]["POSITION"]);
+            let numbers = self.elements(&primitive["indices"]);
+            let (positions, numbers) = (positions.unwrap(), numbers.unwrap());
+            drawn.extend(numbers.iter().map(|n| positions[number(n)].clone()));
+        }
+        drawn
+    }
+
     fn triangles_of(&self, primitive: &Value) -> Option<Vec<Triangle>> {
         let mut columns = Vec::new();
         let mut sets = vec![&primitive["attributes"]];

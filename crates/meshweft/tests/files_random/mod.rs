@@ -20,11 +20,15 @@ impl Random {
         }
     }
 
-    /// An order of all faces within their runs, corners turned where they may be; and one of the
-    /// vertices where they can move.
+    /// An order of all faces within their runs, corners turned where they may be, that moves nothing where
+    /// they must stay; and one of the vertices where they can move.
     pub(crate) fn orders(&mut self, entry: &MeshEntry) -> (FaceOrder, Option<VertexOrder>) {
         let count = entry.record_count();
         let mut new_to_old: Vec<u32> = (0..count as u32).collect();
+        if !entry.faces_movable {
+            let vertices = self.vertex_order(entry);
+            return (FaceOrder::identity(count), vertices);
+        }
         let ends = entry.runs.iter().skip(1).map(|&end| end as usize);
         for (&start, end) in entry.runs.iter().zip(ends.chain([count])) {
             self.shuffle(&mut new_to_old[start as usize..end]);
@@ -34,11 +38,14 @@ impl Random {
             false => Vec::new(),
         };
         let faces = FaceOrder::new(Permutation::new(new_to_old).unwrap(), rotations).unwrap();
+        (faces, self.vertex_order(entry))
+    }
 
+    fn vertex_order(&mut self, entry: &MeshEntry) -> Option<VertexOrder> {
         let mut new_to_old: Vec<u32> = (0..entry.mesh.vertex_count() as u32).collect();
         self.shuffle(&mut new_to_old);
         let vertices = VertexOrder::from(Permutation::new(new_to_old).unwrap());
-        (faces, entry.vertices_movable.then_some(vertices))
+        entry.vertices_movable.then_some(vertices)
     }
 
     /// The file with one to three places, each of fewer bytes than `longest`, replaced by a piece.

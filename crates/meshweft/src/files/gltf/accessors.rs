@@ -112,10 +112,12 @@ pub(super) struct Accessors<'a> {
 }
 
 /// Extensions that say nothing about the order of anything.
-const ORDER_FREE: [&str; 3] = [
+const ORDER_FREE: [&str; 5] = [
     "KHR_materials_variants",
     "KHR_mesh_quantization",
     "KHR_xmp_json_ld",
+    "MAXAR_nonvisual_geometry",
+    "NGA_gpm_local",
 ];
 
 /// The extensions that keep a buffer view's bytes compressed.
@@ -236,8 +238,12 @@ impl<'a> Accessors<'a> {
         }
 
         // Where the view stands, and what may keep its bytes.
-        let (storage, view_start, view_length) = self.view_bytes(&view)?;
         let buffer = view.required_number("buffer")?;
+        if self.buffers.has_no_uri(buffer) {
+            accessor.fixed = Some("its buffer has no uri, so its bytes are not in the file");
+            return Ok(());
+        }
+        let (storage, view_start, view_length) = self.view_bytes(&view)?;
         let buffer = Object::new(self.buffer_values[buffer], format!("/buffers/{buffer}"))?;
         accessor.add_unknown(self.unknown_of(buffer.extensions()?));
         accessor.fixed = self.fixed(storage);

@@ -181,6 +181,13 @@ impl Buffers {
         }
     }
 
+    /// Whether a buffer names nothing that its bytes would be in, which is legal.
+    pub(super) fn has_no_uri(&self, buffer: usize) -> bool {
+        buffer < self.count
+            && !self.of_buffer.contains_key(&buffer)
+            && !self.missing.contains_key(&buffer)
+    }
+
     /// The storage of a buffer, if it has bytes.
     pub(super) fn find(&self, buffer: usize) -> Option<usize> {
         self.of_buffer.get(&buffer).copied()

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::accessors::{Accessors, COMPRESSED_VIEW, UNSIGNED_BYTE, UNSIGNED_SHORT};
 use super::json::Value;
-use super::movable::Movable;
+use super::movable::{Draws, Movable};
 use super::object::Object;
 use super::primitives::Primitives;
 use super::strided_records::StridedRecords;
@@ -23,7 +23,8 @@ const MOST_PAIRS: usize = 1 << 24;
 pub(super) enum UsedAs {
     Indices,
     Vertices,
-    Outline,
+    /// Numbers of vertices that are not corners of faces.
+    OtherList,
     SparseIndices,
     SparseValues,
 }
@@ -194,10 +195,14 @@ impl Building {
             used.users[used_as as usize].push(user);
         };
         if let Some(list) = &primitive.indices {
-            add(list.records, UsedAs::Indices);
+            let used_as = match primitive.draws {
+                Draws::Faces | Draws::FacesInOrder => UsedAs::Indices,
+                Draws::Other(_) => UsedAs::OtherList,
+            };
+            add(list.records, used_as);
         }
         if let Some(list) = primitive.outline() {
-            add(list.records, UsedAs::Outline);
+            add(list.records, UsedAs::OtherList);
         }
         for &records in &primitive.vertices {
             add(records, UsedAs::Vertices);

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::buffers::Buffers;
 use super::byte_users::{ByteUsers, UsedAs};
 use super::groups::{group_numbers, vertex_obstacle};
-use super::movable::{IndexList, Movable, PrimitiveNumber};
+use super::movable::{Draws, IndexList, Movable, PrimitiveNumber};
 use super::object::malformed;
 use super::obstacles::VertexObstacle;
 use super::patch;
@@ -31,8 +31,8 @@ pub(super) enum Corners {
 pub(super) struct Group {
     /// Attributes and morph targets.
     pub(super) vertices: Vec<StridedRecords>,
-    /// Lists of vertex numbers other than the faces.
-    pub(super) outlines: Vec<StridedRecords>,
+    /// Lists of vertex numbers that are not corners of faces.
+    pub(super) other_lists: Vec<StridedRecords>,
     /// Sparse elements, sorted.
     pub(super) sparse: Vec<Sparse>,
     /// The numbers of its meshes.
@@ -70,39 +70,46 @@ impl Entries {
         let mut mesh_of = BTreeMap::new();
 
         for (primitive, &group) in movable.iter().zip(&group_of) {
-            // Its mesh, which is there if an earlier primitive has the same corners.
-            let Some(corners) = corner_records(primitive) else {
-                continue;
-            };
-            let mesh = match mesh_of.get(&corners) {
-                Some(&mesh) => mesh,
-                None => {
-                    let mesh = entries.meshes.len();
-                    let name = primitives.name(primitive.number);
-                    entries.add(primitive, name, group, buffers)?;
-                    mesh_of.insert(corners, mesh);
-                    mesh
-                }
-            };
+            if let Some(corners) = corner_records(primitive) {
+                // Its mesh, which is there if an earlier primitive has the same corners.
+                let mesh = match mesh_of.get(&corners) {
+                    Some(&mesh) => mesh,
+                    None => {
+                        let mesh = entries.meshes.len();
+                        let name = primitives.name(primitive.number);
+                        entries.add(primitive, name, group, buffers)?;
+                        mesh_of.insert(corners, mesh);
+                        mesh
+                    }
+                };
 
-            // It may have fewer vertices than the primitive that the mesh was made of.
-            let largest = entries.largest_vertex[mesh];
-            if largest.is_some_and(|largest| largest as usize >= primitive.vertex_count) {
-                check_range(entries.meshes[mesh].mesh.faces().as_flattened(), primitive)?;
+                if primitive.draws == Draws::FacesInOrder {
+                    entries.meshes[mesh].faces_movable = false;
+                }
+
+                // It may have fewer vertices than the primitive that the mesh was made of.
+                let largest = entries.largest_vertex[mesh];
+                if largest.is_some_and(|largest| largest as usize >= primitive.vertex_count) {
+                    check_range(entries.meshes[mesh].mesh.faces().as_flattened(), primitive)?;
+                }
             }
 
+            // What goes with its vertices.
             obstacles.look_at(primitive, group);
             let group = &mut entries.groups[group];
             group.sparse.extend(primitive.sparse());
-            let outline = primitive.outline().map(|list| list.records);
-            group.outlines.extend(outline);
+            let lists = primitive.other_lists().map(|list| list.records);
+            group.other_lists.extend(lists);
         }
 
         entries.add_vertices(byte_users, &group_of);
         for entry in &mut entries.meshes {
             entry.vertices_movable &= obstacles.found[entry.vertex_group].is_none();
         }
-        entries.vertex_obstacles = obstacles.found.into_iter().flatten().collect();
+        // Without faces in its group, there is nothing that vertices would move for.
+        let found = obstacles.found.into_iter().zip(&entries.groups);
+        let found = found.filter(|(_, group)| !group.meshes.is_empty());
+        entries.vertex_obstacles = found.filter_map(|(found, _)| found).collect();
         Ok(entries)
     }
 
@@ -116,7 +123,7 @@ impl Entries {
         }
 
         for group in &mut self.groups {
-            for records in [&mut group.vertices, &mut group.outlines] {
+            for records in [&mut group.vertices, &mut group.other_lists] {
                 records.sort_unstable();
                 records.dedup();
             }
@@ -178,14 +185,15 @@ impl Entries {
 }
 
 /// The records that say which corners the faces of a primitive have: those of its index list or, where
-/// each face is three vertices in a row, its first vertex records.
+/// each face is three vertices in a row, its first vertex records; `None` if it draws something else.
 ///
 /// These are there, for every primitive has a POSITION; and primitives without indices that share some
 /// vertex records share all of them.
 fn corner_records(primitive: &Movable) -> Option<StridedRecords> {
-    match &primitive.indices {
-        Some(list) => Some(list.records),
-        None => primitive.vertices.first().copied(),
+    match (&primitive.draws, &primitive.indices) {
+        (Draws::Other(_), _) => None,
+        (_, Some(list)) => Some(list.records),
+        (_, None) => primitive.vertices.first().copied(),
     }
 }
 
@@ -281,17 +289,24 @@ fn list_obstacle(
         })
     };
 
-    let is_outline = primitive
-        .outline()
-        .is_some_and(|outline| outline.records == list.records);
-    if is_outline {
+    // The corners of faces have been checked, and are refused if they are not sound.
+    let mut others = primitive.other_lists();
+    if others.any(|other| other.records == list.records) {
+        let is_outline = |outline: &IndexList| outline.records == list.records;
+        let [of, what] = match primitive.outline().is_some_and(is_outline) {
+            true => ["of the outline", "the outline"],
+            false => [
+                "of the lines or strips over them",
+                "what draws lines or strips over them",
+            ],
+        };
         let count = primitive.vertex_count;
         if count > patch::largest_number(&list.records) as usize {
-            return obstacle("the numbers of the outline do not reach all of them");
+            return obstacle(&format!("the numbers {of} do not reach all of them"));
         }
         let numbers = patch::numbers(bytes, &list.records);
         if numbers.iter().any(|&number| number as usize >= count) {
-            return obstacle("the outline names vertices that are not there");
+            return obstacle(&format!("{what} names vertices that are not there"));
         }
     }
 

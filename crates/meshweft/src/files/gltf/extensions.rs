@@ -1,8 +1,9 @@
 //! What extensions on meshes and primitives say about the order of faces and vertices.
 //!
-//! An extension that is not known may refer to vertices by number, so it keeps the vertices. One that
-//! is known to refer to faces or corners by number keeps the primitive. So does one of this project
-//! that this version does not know: those exist to say how faces and vertices are ordered.
+//! One on a mesh or a primitive that is not known may refer to faces, corners or vertices by number, so
+//! the primitive stays as it is, as it does for those that are known to. One that is known to refer to
+//! vertices only keeps the vertices. One of this project on anything around the primitive keeps it too:
+//! those exist to say how faces and vertices are ordered.
 
 use std::collections::BTreeMap;
 
@@ -85,7 +86,7 @@ pub(super) fn of_mesh(
         } else if is_unknown_own(&name, accessors) {
             keep_for_unknown_own(&name, &mut obstacles);
         } else if !accessors.is_order_free(&name) {
-            obstacles.keep_vertices_for_unknown(mesh.pointer(), &name);
+            obstacles.keep_primitive_for_unknown(mesh.pointer(), &name);
         }
     }
     Ok(obstacles)
@@ -154,10 +155,12 @@ pub(super) fn of_primitive(
             }
             name if accessors.is_order_free(name) => {}
             name if is_unknown_own(name, accessors) => keep_for_unknown_own(name, obstacles),
+            // Property textures, and property attributes, which are vertex data.
+            "EXT_structural_metadata" if names_only_properties(&extensions)? => {}
             "EXT_mesh_manifold" | "EXT_structural_metadata" => {
                 obstacles.keep_vertices(pointer, format!("{name} may depend on their order"));
             }
-            name => obstacles.keep_vertices_for_unknown(pointer, name),
+            name => obstacles.keep_primitive_for_unknown(pointer, name),
         }
     }
     Ok(outline)
@@ -179,6 +182,13 @@ fn read_outline(extensions: &Object, accessors: &Accessors) -> Result<Option<Ind
             || accessor.is_strided
             || accessor.unknown_extension.is_some());
     Ok(IndexList::of(accessor).filter(|_| is_list))
+}
+
+/// Whether `EXT_structural_metadata` of a primitive says nothing that could depend on an order.
+fn names_only_properties(extensions: &Object) -> Result<bool, Problem> {
+    let metadata = extensions.object("EXT_structural_metadata")?;
+    let free = ["propertyTextures", "propertyAttributes", "extras"];
+    Ok(metadata.is_none_or(|metadata| metadata.names().all(|name| free.contains(&&*name))))
 }
 
 /// Whether `EXT_mesh_features` has features without attribute and texture: vertex numbers are their

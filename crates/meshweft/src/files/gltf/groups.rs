@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::byte_users::{ByteUsers, UsedAs};
-use super::movable::{Movable, Staying};
+use super::movable::{Draws, Movable, Staying};
 use super::obstacles::VertexObstacle;
 use super::primitives::Primitives;
 use super::strided_records::StridedRecords;
@@ -26,7 +26,8 @@ enum VertexReaders {
     Mixed,
 }
 
-/// Makes those movable primitives stay whose faces cannot be re-ordered, for what they share.
+/// Makes those movable primitives stay whose faces cannot be re-ordered, or what else they draw cannot be
+/// renumbered, for what they share.
 ///
 /// # Complexity
 /// Time O(n log n) in the accessors that primitives name: records are taken once at most.
@@ -51,7 +52,10 @@ pub(super) fn keep_entangled(primitives: &mut Primitives, byte_users: &mut ByteU
     for (primitive, why) in staying.zip(reasons.into_iter().flatten()) {
         primitives.staying.push(Staying {
             number: primitive.number,
-            why: why.into(),
+            why: match primitive.draws {
+                Draws::Faces | Draws::FacesInOrder => why.into(),
+                Draws::Other(why) => why.into(),
+            },
             accessors: primitive.accessors,
         });
     }
@@ -62,7 +66,7 @@ pub(super) fn keep_entangled(primitives: &mut Primitives, byte_users: &mut ByteU
     }
 }
 
-/// For each primitive, why its faces cannot be re-ordered, if so.
+/// For each primitive, why it cannot be changed, if so.
 ///
 /// One that stays reads its data in the old order, so those who share it must stay as well: the
 /// reasons spread until nothing changes.
@@ -234,10 +238,10 @@ fn shared_bytes(primitive: &Movable, byte_users: &ByteUsers) -> Option<String> {
         let subject = ["their sparse data shares", "their sparse data is"];
         (records, subject)
     });
-    let outline = primitive.outline().into_iter();
-    let outline = outline.map(|list| (&list.records, ["the outline shares", "the outline is"]));
+    let lists = primitive.other_lists();
+    let lists = lists.map(|list| (&list.records, ["the outline shares", "the outline is"]));
 
-    for (records, [shares, is]) in vertices.chain(sparse).chain(outline) {
+    for (records, [shares, is]) in vertices.chain(sparse).chain(lists) {
         let Some(found) = byte_users.find(records) else {
             continue;
         };

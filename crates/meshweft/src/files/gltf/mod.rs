@@ -23,11 +23,12 @@
 //! | `Accessor` | an accessor of the file, its bounds checked, as records |
 //! | `Elements` | what the elements of an accessor are, to be read as numbers |
 //! | `Attributes` | which elements each mesh has, by name |
-//! | `IndexList` | records that are vertex numbers: the corners of faces, or an outline |
+//! | `IndexList` | records that are vertex numbers: the corners of faces, lines, an outline |
+//! | `Draws` | whether a primitive draws faces or something else |
 //! | `Sparse` | elements stored by number: their numbers, and their values |
 //! | `Obstacles` | why a primitive stays, or only its vertices, while its JSON is read |
 //! | `VertexObstacle` | one reason why vertices stay, and the pointer to what gives it |
-//! | `Movable` | a primitive that may move, as far as itself is concerned |
+//! | `Movable` | a primitive that may be changed, as far as itself is concerned |
 //! | `Uncommon` | what few movable primitives have: sparse data, outlines, obstacles |
 //! | `Staying` | a primitive that stays as it is, and why |
 //! | `ByteUsers` | all records of the file, each (`UsedRecords`) with those who read it |
@@ -191,7 +192,12 @@ pub(super) fn create(format: Format, name: &Path, meshes: &[NewMesh<'_>]) -> Rea
 
 /// The JSON of a file, parsed.
 fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, Problem> {
-    let text = &container.head[container.json.clone()];
+    let mut text = &container.head[container.json.clone()];
+    // Some writers pad with zeros and not with blanks.
+    if text.ends_with(b"\0") {
+        let end = text.iter().rposition(|&byte| byte != 0);
+        text = &text[..end.map_or(0, |last| last + 1)];
+    }
     Json::read(text, limits).map_err(|fault| {
         // In a .gltf, the line and column in the parser's message say where it is.
         let place = match container.is_glb() {
@@ -308,7 +314,7 @@ impl GltfFile {
 
         // All that names vertices.
         let old_to_new = order.permutation().old_to_new();
-        for records in &group.outlines {
+        for records in &group.other_lists {
             let bytes = self.buffers.bytes_to_change(records.storage);
             let numbers = patch::numbers(bytes, records);
             let renumbered = numbers.iter().map(|&old| old_to_new[old as usize]);

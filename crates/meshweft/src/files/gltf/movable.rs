@@ -44,14 +44,28 @@ impl IndexList {
     }
 }
 
-/// A triangle-list primitive whose faces can be re-ordered as far as itself is concerned.
+/// What a primitive draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Draws {
+    /// Triangles, each by three vertices of its own.
+    Faces,
+    /// The same, but each is drawn over those before, which shows.
+    FacesInOrder,
+    /// Something else, whose order stays, by a list of vertex numbers that can be renumbered. Why it
+    /// stays: to be read after "left as it is: ".
+    Other(&'static str),
+}
+
+/// A primitive that can be changed as far as itself is concerned: its faces re-ordered or, if it draws
+/// something else, its vertices renumbered.
 ///
 /// A file can have very many, so what few of them have is in a box of its own.
 #[derive(Debug)]
 pub(super) struct Movable {
     pub(super) number: PrimitiveNumber,
+    pub(super) draws: Draws,
     pub(super) vertex_count: usize,
-    /// Its corners; `None` if each face is three vertices in a row.
+    /// What it draws, by the numbers of its vertices; `None` if each face is three vertices in a row.
     pub(super) indices: Option<Box<IndexList>>,
     /// The records of all attributes and morph targets, rising, each once.
     pub(super) vertices: Box<[StridedRecords]>,
@@ -97,9 +111,16 @@ impl Movable {
         self.uncommon.as_ref()?.vertex_obstacle.as_ref()
     }
 
-    /// The lists of vertex numbers: corners and outline.
+    /// The lists of vertex numbers: what it draws, and its outline.
     pub(super) fn lists(&self) -> impl Iterator<Item = &IndexList> {
         self.indices.as_deref().into_iter().chain(self.outline())
+    }
+
+    /// Those that are not corners of faces.
+    pub(super) fn other_lists(&self) -> impl Iterator<Item = &IndexList> {
+        let drawn = self.indices.as_deref();
+        let drawn = drawn.filter(|_| matches!(self.draws, Draws::Other(_)));
+        drawn.into_iter().chain(self.outline())
     }
 }
 
@@ -112,7 +133,7 @@ pub(super) struct Staying {
     pub(super) accessors: Box<[u32]>,
 }
 
-/// A primitive as it was read: may it move?
+/// A primitive as it was read: may it be changed?
 #[derive(Debug)]
 pub(super) enum Primitive {
     Movable(Movable),

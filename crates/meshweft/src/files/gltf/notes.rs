@@ -5,24 +5,30 @@ use std::collections::BTreeMap;
 use super::buffers::Buffers;
 use super::entries::Entries;
 use super::json::Value;
-use super::movable::PrimitiveNumber;
+use super::movable::{Draws, PrimitiveNumber};
 use super::object::Object;
 use super::primitives::Primitives;
 use crate::files::error::Place;
 use crate::files::note::Note;
 
-/// Why something stays as it is.
+/// Why the order of transparent faces stays.
+const TRANSPARENT: &str = "its material is transparent (alphaMode BLEND), so each face is drawn over those \
+                           before it; reorder_transparent lets them move";
+
+/// What stays as it is, and why.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum Reason<'a> {
-    OfPrimitive(&'a str),
-    OfVertices(&'a str),
+    Primitive(&'a str),
+    Order(&'a str),
+    Vertices(&'a str),
 }
 
 impl Reason<'_> {
     fn note(self, place: Place) -> Note {
         match self {
-            Self::OfPrimitive(why) => Note::new(place, format!("left as it is: {why}")),
-            Self::OfVertices(why) => Note::vertices_stay(place, why),
+            Self::Primitive(why) => Note::new(place, format!("left as it is: {why}")),
+            Self::Order(why) => Note::new(place, format!("its order stays: {why}")),
+            Self::Vertices(why) => Note::vertices_stay(place, why),
         }
     }
 }
@@ -67,15 +73,24 @@ pub(super) fn notes(
 /// One note for each reason, at the first place: a reason may hold for very many.
 fn of_primitives(primitives: &Primitives, entries: &Entries) -> Vec<Note> {
     let staying = primitives.staying.iter();
-    let staying = staying.map(|staying| (Reason::OfPrimitive(&staying.why), staying.number, None));
+    let staying = staying.map(|staying| (Reason::Primitive(&staying.why), staying.number, None));
+    let movable = primitives.movable.iter();
+    let in_order = movable.filter_map(|primitive| {
+        let why = match primitive.draws {
+            Draws::Faces => return None,
+            Draws::FacesInOrder => TRANSPARENT,
+            Draws::Other(why) => why,
+        };
+        Some((Reason::Order(why), primitive.number, None))
+    });
     let obstacles = entries.vertex_obstacles.iter();
     let obstacles = obstacles.map(|(number, obstacle)| {
-        let reason = Reason::OfVertices(&obstacle.why);
+        let reason = Reason::Vertices(&obstacle.why);
         (reason, *number, Some(obstacle.pointer.as_str()))
     });
 
     let mut firsts: BTreeMap<Reason<'_>, First<'_>> = BTreeMap::new();
-    for (reason, number, pointer) in staying.chain(obstacles) {
+    for (reason, number, pointer) in staying.chain(in_order).chain(obstacles) {
         let first = firsts.entry(reason).or_insert(First {
             number,
             pointer,

@@ -22,6 +22,11 @@ pub(super) struct Obstacles {
 }
 
 impl Obstacles {
+    /// Whether nothing keeps anything.
+    pub(super) fn are_none(&self) -> bool {
+        self.of_primitive.is_none() && self.of_vertices.is_none()
+    }
+
     pub(super) fn keep_primitive(&mut self, why: impl Into<Cow<'static, str>>) {
         self.of_primitive.get_or_insert_with(|| why.into());
     }
@@ -33,7 +38,17 @@ impl Obstacles {
         });
     }
 
-    /// Keeps the vertices because of an extension that is not known.
+    /// Keeps the primitive because of an extension on it or its mesh that is not known.
+    pub(super) fn keep_primitive_for_unknown(&mut self, pointer: &str, extension: &str) {
+        self.keep_primitive(format!(
+            "the extension {extension} is not known and may depend on the order of its faces or vertices: \
+             if it does not, add it to assume_order_safe"
+        ));
+        self.unknown
+            .push((pointer.to_owned(), extension.to_owned()));
+    }
+
+    /// Keeps the vertices because of an extension on their data that is not known.
     pub(super) fn keep_vertices_for_unknown(&mut self, pointer: &str, extension: &str) {
         let why = format!("the extension {extension} is not known and may depend on their order");
         self.keep_vertices(pointer, why);

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use super::accessors::{Accessor, Accessors};
 use super::extensions::{self, OwnExtensions};
 use super::json::Value;
-use super::movable::{IndexList, Movable, Primitive, PrimitiveNumber, Staying, Uncommon};
+use super::movable::{Draws, IndexList, Movable, Primitive, PrimitiveNumber, Staying, Uncommon};
 use super::object::{Object, malformed};
 use super::obstacles::Obstacles;
 use super::sparse::Sparse;
@@ -52,6 +52,7 @@ impl Primitives {
     ) -> Result<Self, Problem> {
         let mut all = Self::default();
         let own = OwnExtensions::new(root, accessors);
+        let transparent = transparent_materials(root);
         // JSON is shorter than 4 GiB, so all numbers fit.
         for (mesh_number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
             let mesh = mesh?;
@@ -74,6 +75,7 @@ impl Primitives {
                         primitive: number,
                     },
                     primitive: primitive?,
+                    transparent: &transparent,
                     accessors,
                     options,
                 };
@@ -85,6 +87,17 @@ impl Primitives {
         }
         Ok(all)
     }
+}
+
+/// Whether each material is blended with what was drawn before.
+fn transparent_materials(root: &Object) -> Vec<bool> {
+    let materials = root.value("materials").into_iter();
+    let materials = materials.flat_map(Value::elements);
+    let is_blended = |material: Value<'_>| {
+        let mode = material.get("alphaMode").and_then(Value::text);
+        mode.is_some_and(|mode| mode == "BLEND")
+    };
+    materials.map(is_blended).collect()
 }
 
 /// What the attributes and morph targets of a primitive store.
@@ -101,6 +114,8 @@ struct VertexData {
 struct PrimitiveReader<'a> {
     number: PrimitiveNumber,
     primitive: Object<'a>,
+    /// Whether each material of the file is transparent.
+    transparent: &'a [bool],
     accessors: &'a Accessors<'a>,
     options: &'a ReadOptions,
 }
@@ -108,11 +123,15 @@ struct PrimitiveReader<'a> {
 impl PrimitiveReader<'_> {
     /// The primitive, movable unless something keeps it: `obstacles` are those of its mesh.
     fn read(self, mut obstacles: Obstacles) -> Result<Primitive, Problem> {
-        // The data of a primitive that stays for its mode or extensions is not looked at.
+        // What else than faces it draws is renumbered with the vertices, if possible.
         if let Some(why) = self.other_mode()? {
-            return Ok(self.staying(why.into()));
+            let read = self.read_other(why, obstacles).ok().flatten();
+            let read = read.map(Primitive::Movable);
+            return Ok(read.unwrap_or_else(|| self.staying(why.into())));
         }
+        // The data of a primitive that stays for its extensions is not looked at.
         let outline = extensions::of_primitive(&self.primitive, self.accessors, &mut obstacles)?;
+        self.refuse_unknown(&obstacles)?;
         if let Some(why) = obstacles.of_primitive {
             return Ok(self.staying(why));
         }
@@ -121,8 +140,12 @@ impl PrimitiveReader<'_> {
         let (position, data) = self.read_attributes(&mut obstacles)?;
         let indices = self.read_indices(&mut obstacles)?;
         let vertex_count = position.as_ref().map_or(0, |position| position.count);
-        if indices.is_none() && vertex_count % 3 != 0 {
-            obstacles.keep_primitive(format!("{vertex_count} vertices are not three a face"));
+        let (corners, what) = match &indices {
+            Some(list) => (list.records.count, "indices"),
+            None => (vertex_count, "vertices"),
+        };
+        if corners % 3 != 0 {
+            obstacles.keep_primitive(format!("{corners} {what} are not three a face"));
         }
 
         // Without indices a face order moves the vertices, so what keeps these keeps it all.
@@ -133,12 +156,7 @@ impl PrimitiveReader<'_> {
             obstacles.keep_primitive(why);
         }
 
-        // Refuse extensions that are not known, where that is asked for, even if the primitive stays.
-        if let Some((pointer, name)) = obstacles.unknown.first()
-            && let Some(kind) = self.options.refusal("the extension", name)
-        {
-            return Err(kind.at(Place::Json(pointer.clone())));
-        }
+        self.refuse_unknown(&obstacles)?;
         if let Some(why) = obstacles.of_primitive {
             return Ok(self.staying(why));
         }
@@ -150,14 +168,70 @@ impl PrimitiveReader<'_> {
             outline,
             vertex_obstacle: obstacles.of_vertices,
         };
-        Ok(Primitive::Movable(Movable {
+        let draws = match self.is_transparent() && !self.options.reorder_transparent {
+            true => Draws::FacesInOrder,
+            false => Draws::Faces,
+        };
+        let movable = self.movable(draws, vertex_count, indices, data.records, uncommon);
+        Ok(Primitive::Movable(movable))
+    }
+
+    /// A primitive that draws something else than faces, if its vertices can be renumbered; what is not
+    /// sound is not looked at further.
+    fn read_other(
+        &self,
+        why: &'static str,
+        mut obstacles: Obstacles,
+    ) -> Result<Option<Movable>, Problem> {
+        extensions::of_primitive(&self.primitive, self.accessors, &mut obstacles)?;
+        let (position, data) = self.read_attributes(&mut obstacles)?;
+        let indices = self.read_indices(&mut obstacles)?;
+        if !obstacles.are_none() || indices.is_none() {
+            return Ok(None);
+        }
+        let uncommon = Uncommon {
+            sparse: data.sparse,
+            ..Uncommon::default()
+        };
+        let vertex_count = position.map_or(0, |position| position.count);
+        let draws = Draws::Other(why);
+        Ok(Some(self.movable(
+            draws,
+            vertex_count,
+            indices,
+            data.records,
+            uncommon,
+        )))
+    }
+
+    /// The primitive as one that can be changed.
+    fn movable(
+        &self,
+        draws: Draws,
+        vertex_count: usize,
+        indices: Option<IndexList>,
+        vertices: Vec<StridedRecords>,
+        uncommon: Uncommon,
+    ) -> Movable {
+        Movable {
             number: self.number,
+            draws,
             vertex_count,
             indices: indices.map(Box::new),
-            vertices: data.records.into(),
+            vertices: vertices.into(),
             uncommon: (!uncommon.is_empty()).then(|| Box::new(uncommon)),
             accessors: self.named_accessors(),
-        }))
+        }
+    }
+
+    /// Refuses an extension that is not known, where that is asked for, even if the primitive stays.
+    fn refuse_unknown(&self, obstacles: &Obstacles) -> Result<(), Problem> {
+        if let Some((pointer, name)) = obstacles.unknown.first()
+            && let Some(kind) = self.options.refusal("the extension", name)
+        {
+            return Err(kind.at(Place::Json(pointer.clone())));
+        }
+        Ok(())
     }
 
     /// Why its mode keeps it as it is; `None` for a list of triangles.
@@ -169,8 +243,24 @@ impl PrimitiveReader<'_> {
             5 | 6 => Ok(Some(
                 "it is a strip or fan, whose faces depend on those before",
             )),
+            // An extension may bring modes of its own, as EXT_primitive_voxels does.
+            _ if self.primitive.has("extensions") => Ok(Some("its mode is not known")),
             mode => Err(self.primitive.problem(format!("there is no mode {mode}"))),
         }
+    }
+
+    /// Whether its material is transparent, or one that a variant gives it.
+    fn is_transparent(&self) -> bool {
+        let extensions = self.primitive.value("extensions");
+        let variants = extensions.and_then(|e| e.get("KHR_materials_variants"));
+        let mappings = variants.and_then(|variants| variants.get("mappings"));
+        let mappings = mappings.into_iter().flat_map(Value::elements);
+        let of_variants = mappings.map(|mapping| mapping.get("material"));
+        let mut materials = of_variants.chain([self.primitive.value("material")]);
+        materials.any(|material| {
+            let number = material.and_then(Value::whole);
+            number.is_some_and(|number| self.transparent.get(number) == Some(&true))
+        })
     }
 
     /// The primitive as one that stays.
@@ -200,7 +290,8 @@ impl PrimitiveReader<'_> {
                 return Ok((None, VertexData::default()));
             }
         };
-        if position.records.is_none() && !position.is_compressed {
+        let is_elsewhere = position.is_compressed || position.fixed.is_some();
+        if position.records.is_none() && !is_elsewhere {
             obstacles.keep_primitive("its POSITION has no buffer view");
         }
 
@@ -259,7 +350,7 @@ impl PrimitiveReader<'_> {
         Ok(())
     }
 
-    /// Its list of corners; `None` if it has none, or one that is not stored.
+    /// The list of what it draws; `None` if it has none, or one that is not stored.
     fn read_indices(&self, obstacles: &mut Obstacles) -> Result<Option<IndexList>, Problem> {
         let Some(number) = self.primitive.number("indices")? else {
             return Ok(None);
@@ -280,9 +371,6 @@ impl PrimitiveReader<'_> {
         }
         if accessor.is_strided {
             obstacles.keep_primitive("its indices have a byteStride");
-        }
-        if accessor.count % 3 != 0 {
-            obstacles.keep_primitive(format!("{} indices are not three a face", accessor.count));
         }
 
         let list = IndexList::of(accessor);

@@ -46,7 +46,13 @@ pub(super) fn relative_path(uri: &str) -> Result<PathBuf, String> {
     if decoded.contains(':') {
         return bad("has a scheme or a drive");
     }
-    if decoded.contains(['\\', '\0']) {
+    if decoded.contains('\\') {
+        let with_slashes = decoded.replace('\\', "/");
+        return Err(format!(
+            "{uri:?} has a backslash, which separates no folders in a URI: write {with_slashes:?}"
+        ));
+    }
+    if decoded.contains('\0') {
         return bad("has a character that file names cannot share between systems");
     }
 
