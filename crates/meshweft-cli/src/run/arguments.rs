@@ -78,6 +78,9 @@ pub(crate) struct Reading {
     /// below 1, Tr above 0 or map_d.
     #[arg(long)]
     reorder_transparent: bool,
+    /// Order triangle strips as faces: they are written as a list of triangles
+    #[arg(long)]
+    strips_to_lists: bool,
 }
 
 impl Reading {
@@ -90,6 +93,7 @@ impl Reading {
             .clone_from(&self.assume_order_safe);
         options.across_groups = self.across_groups;
         options.reorder_transparent = self.reorder_transparent;
+        options.strips_to_lists = self.strips_to_lists;
         options.keep_buffers = keep_buffers.to_vec();
         options
     }

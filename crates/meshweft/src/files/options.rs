@@ -36,6 +36,10 @@ pub struct ReadOptions {
     /// Transparent is what is drawn with a material of `alphaMode` `BLEND`, in any variant of the file, or
     /// one whose `.mtl` has `d` below 1, `Tr` above 0 or `map_d`.
     pub reorder_transparent: bool,
+    /// Order triangle strips as faces: where the file is written, they are a list of triangles with the
+    /// winding that the strips have, without triangles that have no area by their corners' numbers.
+    /// Without this they stay as they are, with a note.
+    pub strips_to_lists: bool,
 }
 
 impl From<Limits> for ReadOptions {
