@@ -6,7 +6,7 @@ use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
 use meshweft::attribute::{Attribute, Semantic};
-use meshweft::files::{Document, Edit, Format, NewMesh, NewVertices};
+use meshweft::files::{Document, Edit, Format, NewMesh, NewVertices, ReadOptions};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 
 /// A new mesh of one face.
@@ -18,6 +18,14 @@ fuzz_target!(|data: &[u8]| {
 });
 
 fn check(data: &[u8], format: Format, path: &Path) {
+    let mut options = ReadOptions::from(Limits::default());
+    options.strips_to_lists = true;
+    if let Ok(mut document) = Document::from_bytes(data.to_vec(), format, path, &options) {
+        assert_same(&document, &written(&document));
+        reverse(&mut document);
+        assert_same(&document, &written(&document));
+    }
+
     let read = Document::from_bytes(data.to_vec(), format, path, Limits::default());
     let Ok(mut document) = read else {
         return;
@@ -46,11 +54,12 @@ fn reverse(document: &mut Document) {
         check_attributes(document, mesh);
         let entry = &document.meshes()[mesh];
         let faces = FaceOrder::from(reversed(entry.record_count()));
+        let faces = entry.faces_movable.then_some(faces);
         let vertices = entry
             .vertices_movable
             .then(|| VertexOrder::from(reversed(entry.mesh.vertex_count())));
         document
-            .edit(Edit::order(mesh, &faces, vertices.as_ref()))
+            .edit(Edit::order(mesh, faces.as_ref(), vertices.as_ref()))
             .expect("the orders have the right lengths");
         assert_eq!(before, triangles(document, mesh));
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use clap::Args;
 use meshweft::Limits;
-use meshweft::files::Document;
+use meshweft::files::{Document, ReadOptions};
 use meshweft::operations::{self, CompareReport};
 
 use crate::caches::Caches;
@@ -26,7 +26,10 @@ pub(crate) struct Compare {
 
 /// Prints how two files differ as triangles and in misses.
 pub(crate) fn run(arguments: &Compare) -> Result<()> {
-    let open = |path: &Path| Document::open(path, Limits::default());
+    // What is drawn counts, whether as a strip or as a list.
+    let mut options = ReadOptions::from(Limits::default());
+    options.strips_to_lists = true;
+    let open = |path: &Path| Document::open(path, &options);
     let (a, b) = (open(&arguments.a)?, open(&arguments.b)?);
     let found = operations::compare(&a, &b, &arguments.caches.models())?;
 

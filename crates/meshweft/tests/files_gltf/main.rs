@@ -16,6 +16,7 @@ mod moves;
 mod nothing_lost;
 mod output;
 mod reader;
+mod strips;
 mod surroundings;
 
 use meshweft::files::{Document, Edit};

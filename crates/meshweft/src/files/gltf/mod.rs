@@ -12,8 +12,9 @@
 //! Read [`container`] → [`buffers`] → [`accessors`] → [`obstacles`] → [`movable`] → [`extensions`] →
 //! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`];
 //! [`notes`] says what stays as it is. Values are read on request: [`attributes`] → [`elements`].
+//! Strips are made lists before all else, if that is asked for: [`strips`].
 //! What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the bytes and
-//! values, [`scene`] finds where they are drawn, [`additions`] puts values into the text.
+//! values, [`growth`] has the buffer for them, [`scene`] finds where they are drawn, [`additions`] puts values into the text.
 //!
 //! | word | what it is |
 //! |---|---|
@@ -54,6 +55,7 @@ mod elements;
 mod entries;
 mod extensions;
 mod groups;
+mod growth;
 mod json;
 mod movable;
 mod new_attributes;
@@ -67,6 +69,7 @@ mod primitives;
 mod scene;
 mod sparse;
 mod strided_records;
+mod strips;
 mod uri;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -139,14 +142,27 @@ pub(super) fn read(
 
     let mut buffers = Buffers::load(&root, binary, surroundings, limits)?;
     buffers.fix(name, is_glb, &options.keep_buffers);
-    let (view, notes) = look(&root, &buffers, options)?;
+    let mut options = options.clone();
+    let mut first_note = None;
+    if std::mem::take(&mut options.strips_to_lists)
+        && let Some((changed, note)) = strips::to_lists(&root, &container, &mut buffers, &options)?
+    {
+        container = changed;
+        first_note = Some(note);
+    }
+    let json = read_json(&container, limits)?;
+    let root = Object::new(json.root(), String::new())?;
+    let (view, notes) = look(&root, &buffers, &options)?;
     let file = GltfFile {
         container,
         buffers,
         view,
-        options: options.clone(),
+        options,
     };
-    Ok((Box::new(file), notes))
+    Ok((
+        Box::new(file),
+        first_note.into_iter().chain(notes).collect(),
+    ))
 }
 
 /// Finds the meshes of a file, which of them can be moved, and what they store.

@@ -160,7 +160,7 @@ impl<'a> NewMeshes<'a> {
     }
 
     /// Stores the corners of faces, in 16 bits if that is enough; the number of their accessor.
-    fn indices(&mut self, faces: &[[u32; 3]], vertex_count: usize) -> usize {
+    pub(super) fn indices(&mut self, faces: &[[u32; 3]], vertex_count: usize) -> usize {
         let corners = faces.as_flattened();
         // The largest number of a type restarts a strip and is not a vertex.
         let is_short = vertex_count <= usize::from(u16::MAX);

@@ -15,6 +15,10 @@ use crate::files::error::{Place, Problem};
 use crate::files::face_records::{check_face_count, check_vertex_count};
 use crate::files::options::ReadOptions;
 
+/// Why a strip or a fan stays.
+const STRIP: &str = "it is a strip or fan, whose faces depend on those before; strips_to_lists makes a list \
+                     of it";
+
 /// All primitives of a file.
 #[derive(Debug, Default)]
 pub(super) struct Primitives {
@@ -51,10 +55,21 @@ impl Primitives {
         options: &ReadOptions,
     ) -> Result<Self, Problem> {
         let mut all = Self::default();
-        let own = OwnExtensions::new(root, accessors);
-        let transparent = transparent_materials(root);
-        // JSON is shorter than 4 GiB, so all numbers fit.
-        for (mesh_number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
+        let mut order_free_accessors = Vec::new();
+        each(
+            root,
+            accessors,
+            options,
+            &mut order_free_accessors,
+            |reader, of_mesh| {
+                match reader.read(of_mesh)? {
+                    Primitive::Movable(movable) => all.movable.push(movable),
+                    Primitive::Staying(staying) => all.staying.push(staying),
+                }
+                Ok(())
+            },
+        )?;
+        for mesh in root.objects("meshes")? {
             let mesh = mesh?;
             let primitives = mesh.value("primitives");
             let first_two = primitives.map(|all| all.elements().take(2));
@@ -62,31 +77,77 @@ impl Primitives {
                 name: mesh.text("name").ok().flatten().map(|name| name.into()),
                 has_several_primitives: first_two.is_some_and(|two| two.count() == 2),
             });
-
-            // What keeps all its primitives.
-            let mut of_mesh = extensions::of_mesh(&mesh, accessors, &mut all.order_free_accessors)?;
-            own.keep(mesh_number as usize, &mut of_mesh);
-
-            let primitives = mesh.objects("primitives")?;
-            for (number, primitive) in (0_u32..).zip(primitives) {
-                let reader = PrimitiveReader {
-                    number: PrimitiveNumber {
-                        mesh: mesh_number,
-                        primitive: number,
-                    },
-                    primitive: primitive?,
-                    transparent: &transparent,
-                    accessors,
-                    options,
-                };
-                match reader.read(of_mesh.clone())? {
-                    Primitive::Movable(movable) => all.movable.push(movable),
-                    Primitive::Staying(staying) => all.staying.push(staying),
-                }
-            }
         }
+        all.order_free_accessors = order_free_accessors;
         Ok(all)
     }
+}
+
+/// A strip or fan of triangles that nothing keeps as it is.
+pub(super) struct Strip {
+    pub(super) number: PrimitiveNumber,
+    pub(super) is_fan: bool,
+    /// The numbers of its vertices; `None` if it has one after the other.
+    pub(super) indices: Option<StridedRecords>,
+    pub(super) vertex_count: usize,
+}
+
+/// All strips and fans that can be made lists.
+pub(super) fn strips(
+    root: &Object,
+    accessors: &Accessors,
+    options: &ReadOptions,
+) -> Result<Vec<Strip>, Problem> {
+    let mut strips = Vec::new();
+    each(
+        root,
+        accessors,
+        options,
+        &mut Vec::new(),
+        |reader, of_mesh| {
+            // What is wrong is said where it is read as what it is.
+            strips.extend(reader.read_strip(of_mesh).ok().flatten());
+            Ok(())
+        },
+    )?;
+    Ok(strips)
+}
+
+/// Calls `read` for each primitive, with what keeps all of its mesh.
+///
+/// Accessors that read the faces of a whole mesh in one piece, and do not mind their order, are added to
+/// `order_free_accessors`.
+fn each<'a>(
+    root: &Object<'a>,
+    accessors: &Accessors<'a>,
+    options: &ReadOptions,
+    order_free_accessors: &mut Vec<usize>,
+    mut read: impl FnMut(PrimitiveReader<'_>, Obstacles) -> Result<(), Problem>,
+) -> Result<(), Problem> {
+    let own = OwnExtensions::new(root, accessors);
+    let transparent = transparent_materials(root);
+    // JSON is shorter than 4 GiB, so all numbers fit.
+    for (mesh_number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
+        let mesh = mesh?;
+        let mut of_mesh = extensions::of_mesh(&mesh, accessors, order_free_accessors)?;
+        own.keep(mesh_number as usize, &mut of_mesh);
+
+        let primitives = mesh.objects("primitives")?;
+        for (number, primitive) in (0_u32..).zip(primitives) {
+            let reader = PrimitiveReader {
+                number: PrimitiveNumber {
+                    mesh: mesh_number,
+                    primitive: number,
+                },
+                primitive: primitive?,
+                transparent: &transparent,
+                accessors,
+                options,
+            };
+            read(reader, of_mesh.clone())?;
+        }
+    }
+    Ok(())
 }
 
 /// Whether each material is blended with what was drawn before.
@@ -234,15 +295,32 @@ impl PrimitiveReader<'_> {
         Ok(())
     }
 
+    /// The strip or fan as it is drawn, if nothing keeps it one; what is not sound is not looked at further.
+    fn read_strip(&self, mut obstacles: Obstacles) -> Result<Option<Strip>, Problem> {
+        let is_fan = match self.primitive.number("mode")? {
+            Some(5) => false,
+            Some(6) => true,
+            _ => return Ok(None),
+        };
+        extensions::of_primitive(&self.primitive, self.accessors, &mut obstacles)?;
+        let (position, _) = self.read_attributes(&mut obstacles)?;
+        let indices = self.read_indices(&mut obstacles)?;
+        let is_kept = !obstacles.are_none() || indices.is_none() && self.primitive.has("indices");
+        Ok((!is_kept).then(|| Strip {
+            number: self.number,
+            is_fan,
+            indices: indices.map(|list| list.records),
+            vertex_count: position.map_or(0, |position| position.count),
+        }))
+    }
+
     /// Why its mode keeps it as it is; `None` for a list of triangles.
     fn other_mode(&self) -> Result<Option<&'static str>, Problem> {
         match self.primitive.number("mode")?.unwrap_or(4) {
             0 => Ok(Some("it is drawn as points")),
             1..=3 => Ok(Some("it is drawn as lines")),
             4 => Ok(None),
-            5 | 6 => Ok(Some(
-                "it is a strip or fan, whose faces depend on those before",
-            )),
+            5 | 6 => Ok(Some(STRIP)),
             // An extension may bring modes of its own, as EXT_primitive_voxels does.
             _ if self.primitive.has("extensions") => Ok(Some("its mode is not known")),
             mode => Err(self.primitive.problem(format!("there is no mode {mode}"))),
