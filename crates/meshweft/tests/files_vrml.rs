@@ -16,6 +16,8 @@ mod plain;
 mod random;
 #[path = "../../../fuzz/fuzz_targets/round_trip/mod.rs"]
 mod round_trip;
+#[path = "files_vrml/transparent.rs"]
+mod transparent;
 #[path = "files_vrml/values.rs"]
 mod values;
 

@@ -74,8 +74,8 @@ pub(crate) struct Reading {
     across_groups: bool,
     /// Move transparent faces too: drawn one over the other, they may look different then
     ///
-    /// Transparent is what has a material with alphaMode BLEND, in any variant, or one whose .mtl has d
-    /// below 1, Tr above 0 or map_d.
+    /// Transparent is what has a material with alphaMode BLEND, in any variant of a glTF; one whose .mtl
+    /// has d below 1, Tr above 0 or map_d; or one of a VRML file with a transparency.
     #[arg(long)]
     reorder_transparent: bool,
     /// Order triangle strips as faces: they are written as a list of triangles

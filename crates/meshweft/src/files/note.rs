@@ -31,6 +31,19 @@ impl Note {
         Self::new(Place::File, "no faces: there is nothing to order")
     }
 
+    /// The faces of a mesh keep their order.
+    pub(super) fn faces_stay(place: Place, why: impl Display) -> Self {
+        Self::new(place, format!("the faces stay where they are: {why}"))
+    }
+
+    /// The faces of a mesh keep their order, because they are transparent.
+    pub(super) fn transparent(place: Place, why: &str) -> Self {
+        let why = format!(
+            "{why}, so each is drawn over those before it; reorder_transparent lets them move"
+        );
+        Self::faces_stay(place, why)
+    }
+
     /// The vertices of a mesh keep their order.
     pub(super) fn vertices_stay(place: Place, why: impl Display) -> Self {
         Self::new(place, format!("the vertices stay where they are: {why}"))

@@ -33,8 +33,8 @@ pub struct ReadOptions {
     /// Let transparent faces be moved. They are drawn one over the other in their order, so without this
     /// they keep it, with a note; their vertices may move.
     ///
-    /// Transparent is what is drawn with a material of `alphaMode` `BLEND`, in any variant of the file, or
-    /// one whose `.mtl` has `d` below 1, `Tr` above 0 or `map_d`.
+    /// Transparent is what is drawn with a material of `alphaMode` `BLEND`, in any variant of a glTF; one
+    /// whose `.mtl` has `d` below 1, `Tr` above 0 or `map_d`; or one of a VRML file with a `transparency`.
     pub reorder_transparent: bool,
     /// Order triangle strips as faces: where the file is written, they are a list of triangles with the
     /// winding that the strips have, without triangles that have no area by their corners' numbers.

@@ -11,8 +11,8 @@ use super::builder::{Builder, F32, U8, U16, U32, faces};
 use super::moves::{check, notes, one_mesh, open, reader, written};
 use super::random_orders;
 
-const TRANSPARENT: &str = "its order stays: its material is transparent (alphaMode BLEND), so each face is \
-                           drawn over those before it; reorder_transparent lets them move";
+const TRANSPARENT: &str = "the faces stay where they are: its material is transparent (alphaMode BLEND), so \
+                           each is drawn over those before it; reorder_transparent lets them move";
 
 /// Triangles, and another primitive over the same vertices.
 fn beside_triangles(mode: usize, component: usize, numbers: &[usize], more: &Value) -> Vec<u8> {

@@ -12,14 +12,14 @@ use crate::files::error::Place;
 use crate::files::note::Note;
 
 /// Why the order of transparent faces stays.
-const TRANSPARENT: &str = "its material is transparent (alphaMode BLEND), so each face is drawn over those \
-                           before it; reorder_transparent lets them move";
+const TRANSPARENT: &str = "its material is transparent (alphaMode BLEND)";
 
 /// What stays as it is, and why.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum Reason<'a> {
     Primitive(&'a str),
     Order(&'a str),
+    Transparent,
     Vertices(&'a str),
 }
 
@@ -28,6 +28,7 @@ impl Reason<'_> {
         match self {
             Self::Primitive(why) => Note::new(place, format!("left as it is: {why}")),
             Self::Order(why) => Note::new(place, format!("its order stays: {why}")),
+            Self::Transparent => Note::transparent(place, TRANSPARENT),
             Self::Vertices(why) => Note::vertices_stay(place, why),
         }
     }
@@ -78,10 +79,10 @@ fn of_primitives(primitives: &Primitives, entries: &Entries) -> Vec<Note> {
     let in_order = movable.filter_map(|primitive| {
         let why = match primitive.draws {
             Draws::Faces => return None,
-            Draws::FacesInOrder => TRANSPARENT,
-            Draws::Other(why) => why,
+            Draws::FacesInOrder => Reason::Transparent,
+            Draws::Other(why) => Reason::Order(why),
         };
-        Some((Reason::Order(why), primitive.number, None))
+        Some((why, primitive.number, None))
     });
     let obstacles = entries.vertex_obstacles.iter();
     let obstacles = obstacles.map(|(number, obstacle)| {

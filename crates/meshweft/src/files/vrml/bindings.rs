@@ -60,6 +60,7 @@ pub(super) struct Binder<'a> {
     pub(super) text: &'a [u8],
     pub(super) scene: &'a Scene<'a>,
     pub(super) limits: &'a Limits,
+    pub(super) reorder_transparent: bool,
     /// Where the points stand, by number of [`Scene::coordinates`].
     pub(super) shared: Vec<Option<Spans>>,
 }
@@ -157,7 +158,7 @@ impl Binder<'_> {
             polygons: corners.records.polygons,
             runs,
             vertex_group: 0,
-            faces_movable: true,
+            faces_movable: !self.is_transparent(set),
             vertices_movable: vertices_stay.is_none(),
         };
         Ok(Bound {
@@ -166,6 +167,13 @@ impl Binder<'_> {
             vertices_stay,
             shared,
         })
+    }
+
+    /// Whether the faces are drawn with a transparent material, here or by a `USE`, and may not move.
+    fn is_transparent(&self, set: &FaceSet) -> bool {
+        let name = set.own_name.as_ref().map(|name| &self.text[name.clone()]);
+        let is_used = name.is_some_and(|name| self.scene.used_transparent.contains(name));
+        !self.reorder_transparent && (set.is_transparent || is_used)
     }
 
     /// Whether something else may read the node that hangs on a face set.

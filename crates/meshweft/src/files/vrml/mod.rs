@@ -1,6 +1,6 @@
 //! VRML97 (VRML 2.0): the faces and vertices of every `IndexedFaceSet` move.
 //!
-//! Four choices were made here:
+//! Five choices were made here:
 //!
 //! - A face record is the numbers of a polygon with its -1, wherever lines end. The polygons of
 //!   `texCoordIndex`, `colorIndex` and `normalIndex` go along, and what goes by face (indices, or
@@ -9,6 +9,8 @@
 //!   and texture coordinates that have no indices of their own.
 //! - What something else may read by number stays, with a note: lists that a `USE` or a `ROUTE`
 //!   names, fields that are one of a `PROTO`, everything if a `Script` is handed nodes.
+//! - Faces of a `Shape` whose `Material` has a transparency keep their order: what a `ROUTE` makes
+//!   transparent later, and pictures with transparent parts, are not known.
 //! - A face set whose `coord` is a `USE` has the vertices that its own faces name. They stay.
 //!
 //! What can be read of a face set: its positions; its normals, colors and texture coordinates if
@@ -61,6 +63,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         text: &bytes,
         scene: &scene,
         limits,
+        reorder_transparent: options.reorder_transparent,
         shared: vec![None; scene.coordinates.len()],
     };
 
@@ -77,6 +80,9 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
                     said.add(at, Stays::Vertices(why));
                 }
                 let mut entry = bound.entry;
+                if !entry.faces_movable {
+                    said.add(at, Stays::Order);
+                }
                 entry.vertex_group = entries.len();
                 entries.push(entry);
                 sets.push(Set {
@@ -140,6 +146,8 @@ fn header(bytes: &[u8]) -> Result<usize, Problem> {
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum Stays {
     Mesh(String),
+    /// That of the faces.
+    Order,
     Vertices(String),
 }
 
@@ -147,6 +155,7 @@ impl Stays {
     fn note(self, place: Place) -> Note {
         match self {
             Self::Mesh(why) => Note::new(place, format!("the mesh stays as it is: {why}")),
+            Self::Order => Note::transparent(place, "its Material has a transparency"),
             Self::Vertices(why) => Note::vertices_stay(place, why),
         }
     }

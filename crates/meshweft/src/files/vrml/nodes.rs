@@ -8,10 +8,10 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::lexer::{Lexer, Token};
-use super::reader::{Frame, FrameKind, Points, VrmlReader};
+use super::reader::{Frame, FrameKind, Points, ShapeNode, VrmlReader};
 use super::scene::{Child, FaceSet, List, Role, Scene};
 use crate::files::error::{Fault, FileErrorKind};
-use crate::files::text::shown;
+use crate::files::text::{coordinate, shown};
 use crate::limits::Limits;
 
 /// Reads the nodes of `text` from `at` on.
@@ -79,6 +79,7 @@ impl<'a> VrmlReader<'a> {
             }
             b"USE" => {
                 let name = self.name_after("USE")?;
+                self.used_in_shape(name.clone());
                 let name = &self.text[name];
                 self.scene.used.insert(name);
                 let scope = self.scopes.last();
@@ -138,6 +139,15 @@ impl<'a> VrmlReader<'a> {
                 self.odd("another field");
             }
             FrameKind::FaceSet(..) => return self.face_set_word(span),
+            FrameKind::Material if word == b"transparency" => {
+                // One of a PROTO may be anything.
+                let list = self.list(span)?;
+                let value = list.and_then(|list| coordinate(&self.text[list.content]));
+                if value.is_none_or(|value| value > 0.0) {
+                    self.transparent();
+                }
+                return Ok(());
+            }
             _ => {}
         }
         self.word = Some(span);
@@ -190,7 +200,7 @@ impl<'a> VrmlReader<'a> {
 
         let kind = match (waiting, kind) {
             (Some(Some(role)), kind) if kind == role.names()[1].as_bytes() => {
-                points(role, true, own_name)
+                points(role, true, own_name.clone())
             }
             (Some(_), other) => {
                 self.odd(&format!("a node of type {}", shown(other)));
@@ -199,18 +209,27 @@ impl<'a> VrmlReader<'a> {
             (None, b"IndexedFaceSet") => {
                 let set = FaceSet {
                     span: at..at,
-                    own_name,
+                    own_name: own_name.clone(),
                     name: name.clone(),
                     in_proto: self.protos > 0,
                     ..FaceSet::default()
                 };
                 FrameKind::FaceSet(Box::new(set), None)
             }
-            (None, b"Coordinate") => points(Role::Coord, false, own_name),
+            (None, b"Coordinate") => points(Role::Coord, false, own_name.clone()),
             (None, b"Script") => FrameKind::Script,
+            (None, b"Material") => FrameKind::Material,
+            (None, b"Shape") => FrameKind::Shape(ShapeNode {
+                first_set: self.scene.face_sets.len(),
+                ..ShapeNode::default()
+            }),
             (None, _) => FrameKind::Other,
         };
-        self.open(at, b'}', name, kind)
+        self.open(at, b'}', name, kind)?;
+        if let Some(frame) = self.frames.last_mut() {
+            frame.own_name = own_name;
+        }
+        Ok(())
     }
 
     fn open(
@@ -234,6 +253,7 @@ impl<'a> VrmlReader<'a> {
             at,
             close,
             name,
+            own_name: None,
             kind,
         });
         Ok(())
@@ -264,7 +284,8 @@ impl<'a> VrmlReader<'a> {
                 self.close_face_set(set);
             }
             FrameKind::Points(points) => self.close_points(points),
-            FrameKind::Other | FrameKind::Script => {}
+            FrameKind::Shape(shape) => self.close_shape(shape),
+            FrameKind::Other | FrameKind::Script | FrameKind::Material => {}
         }
         Ok(())
     }

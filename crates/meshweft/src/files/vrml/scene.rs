@@ -82,6 +82,8 @@ pub(super) struct FaceSet {
     pub(super) normal_per_face: bool,
     pub(super) color_per_face: bool,
     pub(super) in_proto: bool,
+    /// Whether its material is transparent.
+    pub(super) is_transparent: bool,
     /// Why it cannot be ordered, while it is being read.
     pub(super) obstacle: Option<Box<str>>,
 }
@@ -114,6 +116,10 @@ pub(super) struct Scene<'a> {
     pub(super) used: HashSet<&'a [u8]>,
     /// The names in `ROUTE`.
     pub(super) routed: HashSet<&'a [u8]>,
+    /// The names of nodes with a transparent material in them.
+    pub(super) transparent: HashSet<&'a [u8]>,
+    /// The names after `USE` in a `Shape` with a transparent material.
+    pub(super) used_transparent: HashSet<&'a [u8]>,
     /// Whether a `Script` is handed nodes, and may read anything in them.
     pub(super) script_reads_nodes: bool,
 }
