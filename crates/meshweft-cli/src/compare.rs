@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::Args;
-use meshweft::Limits;
 use meshweft::files::{Document, ReadOptions};
 use meshweft::operations::{self, CompareReport};
 
 use crate::caches::Caches;
 use crate::columns::columns;
+use crate::run::arguments::Size;
 use crate::run::output::{self, Report};
 
 #[derive(Debug, Args)]
@@ -21,13 +21,15 @@ pub(crate) struct Compare {
     #[command(flatten)]
     caches: Caches,
     #[command(flatten)]
+    size: Size,
+    #[command(flatten)]
     report: Report,
 }
 
 /// Prints how two files differ as triangles and in misses.
 pub(crate) fn run(arguments: &Compare) -> Result<()> {
     // What is drawn counts, whether as a strip or as a list.
-    let mut options = ReadOptions::from(Limits::default());
+    let mut options = ReadOptions::from(arguments.size.limits());
     options.strips_to_lists = true;
     let open = |path: &Path| Document::open(path, &options);
     let (a, b) = (open(&arguments.a)?, open(&arguments.b)?);

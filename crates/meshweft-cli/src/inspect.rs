@@ -7,11 +7,12 @@ use anyhow::{Context, Error, Result};
 use clap::Args;
 use meshweft::files::Document;
 use meshweft::operations::{self, Counts, InspectReport, Method};
-use meshweft::{CacheModel, Limits, Mesh};
+use meshweft::{CacheModel, Mesh};
 
 use crate::caches::Caches;
 use crate::columns::columns;
 use crate::plot::{self, Curve};
+use crate::run::arguments::Size;
 use crate::run::inputs;
 use crate::run::output::{self, Report};
 use crate::run::side_file::PLOT;
@@ -33,6 +34,8 @@ pub(crate) struct Inspect {
     methods: bool,
     #[command(flatten)]
     caches: Caches,
+    #[command(flatten)]
+    size: Size,
     #[command(flatten)]
     report: Report,
 }
@@ -87,7 +90,7 @@ fn curves(document: &Document, with_methods: bool) -> Vec<Curve> {
 }
 
 fn inspect(path: &Path, models: &[CacheModel], arguments: &Inspect) -> Result<Vec<Curve>> {
-    let document = Document::open(path, Limits::default())?;
+    let document = Document::open(path, arguments.size.limits())?;
     let report = operations::inspect(&document, models);
     arguments.report.json_line(&report.to_json())?;
     arguments.report.text(&text(&report))?;

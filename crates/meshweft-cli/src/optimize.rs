@@ -14,7 +14,7 @@ use crate::run::arguments::{Reading, Run};
 use crate::run::jobs::{Job, Jobs, names_of};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
-use crate::run::side_file::PERMUTATION;
+use crate::run::side_file::{MANIFEST, PERMUTATION};
 use crate::run::watch::Watch;
 use crate::run::{self, Outcome, output, write};
 use crate::usage::Usage;
@@ -53,10 +53,13 @@ pub(crate) fn run(arguments: &Optimize) -> Result<()> {
     }
     if let Some(path) = &arguments.write_permutation {
         PERMUTATION.check_no_mesh(path, names_of(&jobs.list))?;
+        if let Some(list) = &arguments.run.manifest {
+            PERMUTATION.check_other(path, list, MANIFEST.flag)?;
+        }
         PERMUTATION.check(path, arguments.run.force)?;
     }
     let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
-    let work = |job: &Job| optimize(job, &jobs.shared_buffers, &options, shows_bar, arguments);
+    let work = |job: &Job| optimize(job, &jobs, &options, shows_bar, arguments);
     run::over_files(
         "optimize",
         &jobs.list,
@@ -69,13 +72,13 @@ pub(crate) fn run(arguments: &Optimize) -> Result<()> {
 /// Orders the meshes of a file, and writes it.
 fn optimize(
     job: &Job,
-    shared_buffers: &[PathBuf],
+    jobs: &Jobs,
     options: &Options,
     shows_bar: bool,
     arguments: &Optimize,
 ) -> Result<Outcome> {
     let start = Instant::now();
-    let mut document = Document::open(&job.input, arguments.reading.options(shared_buffers))?;
+    let mut document = Document::open(&job.input, arguments.reading.options(&jobs.shared_buffers))?;
 
     let watch = Watch::new(arguments.ordering.time(), shows_bar);
     let mut report = operations::optimize(&mut document, options, &watch)?;
@@ -83,11 +86,13 @@ fn optimize(
 
     let mut renamed = Vec::new();
     if arguments.run.writes(report.is_changed()) {
-        let written = write::write(job, &document, report.is_changed(), arguments.run.force)?;
+        let written = write::write(job, &document, &arguments.run, &jobs.outputs)?;
         report.set_output(&job.target, written.bytes);
-        renamed = written.renamed;
+        report.add_written(&written);
+        renamed = write::renamed_lines(job, &written);
     }
-    if let Some(file) = &arguments.write_permutation {
+    let permutation = arguments.write_permutation.as_ref();
+    if let Some(file) = permutation.filter(|_| !arguments.run.dry_run) {
         // A buffer that was just written may have that name.
         PERMUTATION.check(file, arguments.run.force)?;
         let text = report.permutations_to_json();
@@ -148,5 +153,9 @@ fn text(report: &OptimizeReport) -> String {
         (true, None) => "\n  not written: dry run".to_owned(),
         (false, None) => "\n  nothing to improve: left as it is".to_owned(),
     };
+    if report.copied > 0 {
+        let s = if report.copied == 1 { "" } else { "s" };
+        text += &format!("\n  copied {} file{s} that it names", report.copied);
+    }
     text
 }

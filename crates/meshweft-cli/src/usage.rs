@@ -28,6 +28,15 @@ pub(crate) fn message(error: &Error) -> String {
             "{text}. Leave out --strict to keep what it may depend on, or say \
              --assume-order-safe {name} if it does not"
         ),
+        // Only this limit has a flag.
+        Some(FileErrorKind::OverLimit { what, .. }) => {
+            let text = text.trim_end_matches(", or allow more");
+            match *what {
+                "bytes" | "bytes or more" => format!("{text}, or allow more with --max-bytes"),
+                _ => text.to_owned(),
+            }
+        }
+        Some(FileErrorKind::ReadOnly) => format!("{text}. Give --force to replace it"),
         _ => text,
     }
 }

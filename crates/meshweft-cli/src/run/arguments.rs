@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::Args;
+use meshweft::Limits;
 use meshweft::files::ReadOptions;
 
 use super::inputs::Shard;
@@ -27,6 +28,11 @@ pub(crate) struct Run {
     /// Replace files that are read-only, and one that another program wrote by --write-permutation
     #[arg(long, display_order = 99)]
     pub(crate) force: bool,
+    /// Leave images, materials and other files that a mesh file names where they are
+    ///
+    /// Without this flag they are copied along with -o into another folder, over no other file.
+    #[arg(long, display_order = 99)]
+    pub(crate) no_copy: bool,
     /// Go on with the next file when one fails
     #[arg(long, display_order = 100)]
     pub(crate) keep_going: bool,
@@ -56,6 +62,23 @@ impl Run {
 }
 
 #[derive(Debug, Args)]
+#[command(next_display_order = 115)]
+pub(crate) struct Size {
+    /// Most bytes of a file, after decompression; K, M or G may follow: a compressed file takes
+    /// memory by its unpacked size [default: 8G]
+    #[arg(long, value_name = "N", value_parser = byte_count)]
+    max_bytes: Option<u64>,
+}
+
+impl Size {
+    pub(crate) fn limits(&self) -> Limits {
+        let mut limits = Limits::default();
+        limits.file_bytes = self.max_bytes.unwrap_or(limits.file_bytes);
+        limits
+    }
+}
+
+#[derive(Debug, Args)]
 #[command(next_display_order = 110)]
 pub(crate) struct Reading {
     /// Refuse files with something that is not known and may depend on the order
@@ -81,12 +104,15 @@ pub(crate) struct Reading {
     /// Order triangle strips as faces: they are written as a list of triangles
     #[arg(long)]
     strips_to_lists: bool,
+    #[command(flatten)]
+    size: Size,
 }
 
 impl Reading {
     /// The flags for the library; `keep_buffers` are those that other files read too.
     pub(crate) fn options(&self, keep_buffers: &[PathBuf]) -> ReadOptions {
         let mut options = ReadOptions::default();
+        options.limits = self.size.limits();
         options.strict = self.strict;
         options
             .assume_order_safe
@@ -105,5 +131,43 @@ fn thread_count(text: &str) -> Result<NonZeroUsize, String> {
     match count.get() <= MOST_THREADS {
         true => Ok(count),
         false => Err(format!("at most {MOST_THREADS} are allowed")),
+    }
+}
+
+/// A number of bytes such as `300` or `2G`.
+fn byte_count(text: &str) -> Result<u64, String> {
+    let shift = match text.bytes().last().map(|unit| unit.to_ascii_uppercase()) {
+        Some(b'K') => 10,
+        Some(b'M') => 20,
+        Some(b'G') => 30,
+        _ => 0,
+    };
+    let digits = &text[..text.len() - usize::from(shift > 0)];
+    let count: u64 = digits
+        .parse()
+        .map_err(|error| format!("{error}: write 300M or 16G"))?;
+    count
+        .checked_mul(1 << shift)
+        .ok_or_else(|| "no file has that many bytes".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_counted_in_units_too() {
+        for (text, count) in [
+            ("0", 0),
+            ("300", 300),
+            ("2k", 2048),
+            ("3M", 3 << 20),
+            ("1G", 1 << 30),
+        ] {
+            assert_eq!(byte_count(text), Ok(count), "{text}");
+        }
+        for text in ["", "G", "-1", "1.5G", "1T", "99999999999G", "1GG"] {
+            assert!(byte_count(text).is_err(), "{text}");
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! The files that the command line names: one by one, by folder, or by pattern.
 
 use std::collections::BTreeSet;
+use std::ffi::{OsStr, OsString};
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
 
@@ -35,8 +36,8 @@ pub(crate) fn expand(names: &[PathBuf], except: Option<&Path>) -> Result<Vec<Inp
         if name.is_dir() {
             add_below(name, Path::new(""), except.as_deref(), &mut inputs)
                 .with_context(|| name.display().to_string())?;
-        } else if let Some(pattern) = pattern(name) {
-            add_matching(pattern, &mut inputs)?;
+        } else if is_pattern(name) {
+            add_matching(name, &mut inputs)?;
         } else {
             // A file that is not there is reported when its turn comes.
             let relative = name.file_name().map_or_else(|| name.clone(), PathBuf::from);
@@ -91,31 +92,109 @@ fn add_below(
     Ok(())
 }
 
-/// The name as a pattern, if it is one.
-fn pattern(name: &Path) -> Option<&str> {
-    let text = name.to_str()?;
-    (text.contains(['*', '?', '[']) && !name.exists()).then_some(text)
+/// Whether a name is a pattern.
+fn is_pattern(name: &Path) -> bool {
+    has_wildcard(name.as_os_str()) && !name.exists()
+}
+
+fn has_wildcard(part: &OsStr) -> bool {
+    part.as_encoded_bytes()
+        .iter()
+        .any(|byte| b"*?[".contains(byte))
 }
 
 /// Adds the mesh files that a pattern matches.
-fn add_matching(pattern: &str, inputs: &mut Vec<Input>) -> Result<()> {
-    let paths = glob::glob(pattern).map_err(|error| Usage(format!("{pattern}: {error}")))?;
-
+fn add_matching(pattern: &Path, inputs: &mut Vec<Input>) -> Result<()> {
     // The folders before the first wildcard are not repeated below the output.
-    let is_plain = |part: &Component<'_>| {
-        let text = part.as_os_str().as_encoded_bytes();
-        !text.iter().any(|byte| b"*?[".contains(byte))
-    };
-    let prefix: PathBuf = Path::new(pattern)
-        .components()
-        .take_while(is_plain)
-        .collect();
+    let is_plain = |part: &Component<'_>| !has_wildcard(part.as_os_str());
+    let prefix: PathBuf = pattern.components().take_while(is_plain).collect();
+    let parts = pattern.components().skip_while(is_plain);
+    let parts = parts.map(|part| Part::new(part.as_os_str(), pattern));
+    let parts = parts.collect::<Result<Vec<_>>>()?;
 
-    for path in paths {
-        let path = path.with_context(|| pattern.to_owned())?;
+    let mut found = Vec::new();
+    add_below_pattern(&prefix, Path::new(""), &parts, &mut found)
+        .with_context(|| pattern.display().to_string())?;
+    // `**` may lead to a file in several ways.
+    let mut seen = BTreeSet::new();
+    found.retain(|relative| seen.insert(relative.clone()));
+    for relative in found {
+        let path = prefix.join(&relative);
         if Format::of_path(&path).is_some() && path.is_file() {
-            let relative = path.strip_prefix(&prefix).unwrap_or(&path).to_owned();
             inputs.push(Input { path, relative });
+        }
+    }
+    Ok(())
+}
+
+/// A part of a pattern.
+enum Part {
+    /// `**`: any number of folders.
+    Folders,
+    Plain(OsString),
+    Name(glob::Pattern),
+}
+
+impl Part {
+    fn new(part: &OsStr, whole: &Path) -> Result<Self> {
+        if !has_wildcard(part) {
+            return Ok(Self::Plain(part.to_owned()));
+        }
+        let wrong = |why: String| Usage(format!("{}: {why}", whole.display()));
+        let Some(text) = part.to_str() else {
+            let why = "a pattern is UTF-8 text: name the folder, or the files";
+            return Err(wrong(why.into()).into());
+        };
+        if text == "**" {
+            return Ok(Self::Folders);
+        }
+        let pattern = glob::Pattern::new(text).map_err(|error| wrong(error.to_string()))?;
+        Ok(Self::Name(pattern))
+    }
+}
+
+/// Adds what the parts of a pattern match in the folder `below` of `root`, sorted within a folder. What
+/// is not UTF-8 in a name is matched by `?` and `*`.
+fn add_below_pattern(
+    root: &Path,
+    below: &Path,
+    parts: &[Part],
+    found: &mut Vec<PathBuf>,
+) -> io::Result<()> {
+    let Some((part, rest)) = parts.split_first() else {
+        found.push(below.to_owned());
+        return Ok(());
+    };
+    match part {
+        Part::Folders => add_below_pattern(root, below, rest, found)?,
+        Part::Plain(name) => return add_below_pattern(root, &below.join(name), rest, found),
+        Part::Name(_) => {}
+    }
+
+    let folder = root.join(below);
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        &folder
+    };
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    let mut entries = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
+    entries.sort_by_key(fs::DirEntry::file_name);
+    for entry in entries {
+        let name = entry.file_name();
+        let relative = below.join(&name);
+        match part {
+            // Links to folders are not followed: they may lead in circles.
+            Part::Folders if entry.file_type()?.is_dir() => {
+                add_below_pattern(root, &relative, parts, found)?;
+            }
+            Part::Folders if rest.is_empty() => found.push(relative),
+            Part::Name(pattern) if pattern.matches(&name.to_string_lossy()) => {
+                add_below_pattern(root, &relative, rest, found)?;
+            }
+            _ => {}
         }
     }
     Ok(())

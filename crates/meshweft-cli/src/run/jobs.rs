@@ -5,8 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use meshweft::Limits;
-use meshweft::files::{Format, external_buffers};
+use meshweft::files::{Format, Outputs, shared_buffers};
 
 use super::arguments::Run;
 use super::inputs;
@@ -17,8 +16,9 @@ pub(crate) struct Jobs {
     pub(crate) list: Vec<Job>,
     /// Whether the command line names one file, rather than a folder, a pattern or several.
     pub(crate) is_one_file: bool,
-    /// Buffers that a file of the list reads and another file reads too.
+    /// Buffers that a file of the list reads and another file reads too, where files are replaced.
     pub(crate) shared_buffers: Vec<PathBuf>,
+    pub(crate) outputs: Outputs,
 }
 
 /// A file, and where its result goes.
@@ -86,11 +86,21 @@ impl Jobs {
         }
 
         // The share is taken last: all shares of a run are checked as a whole.
+        let outputs = list
+            .iter()
+            .map(|job| (job.input.as_path(), job.target.as_path()));
+        let outputs = Outputs::of(outputs);
         if let Some(shard) = run.shard {
             list = shard.of(list);
         }
+        // With an output of its own, a file has buffers of its own.
+        let shared = list.iter().map(|job| job.input.as_path());
         Ok(Self {
-            shared_buffers: shared_buffers(&list),
+            shared_buffers: match output {
+                Some(_) => Vec::new(),
+                None => shared_buffers(shared),
+            },
+            outputs,
             list,
             is_one_file,
         })
@@ -141,37 +151,4 @@ fn is_folder(out: &Path) -> bool {
 /// other name becomes a folder where several files need one.
 fn is_file(out: &Path) -> bool {
     !is_folder(out) && (out.exists() || Format::of_path(out).is_some())
-}
-
-/// Buffers that two glTF files of one folder read: rearranged for one, they would be wrong for the
-/// other. Files that are not inputs count too, if they are in the folder of one.
-fn shared_buffers(jobs: &[Job]) -> Vec<PathBuf> {
-    let is_gltf = |path: &Path| matches!(Format::of_path(path), Some(Format::Gltf | Format::Glb));
-    let inputs = jobs.iter().filter(|job| is_gltf(&job.input));
-    let folders: BTreeSet<&Path> = inputs.filter_map(|job| job.input.parent()).collect();
-
-    let mut shared = Vec::new();
-    for folder in folders {
-        // Every file beside the inputs; paths as the inputs spell them.
-        let here = match folder.as_os_str().is_empty() {
-            true => Path::new("."),
-            false => folder,
-        };
-        let entries = fs::read_dir(here).into_iter().flatten().flatten();
-        let paths = entries.map(|entry| folder.join(entry.file_name()));
-
-        // A buffer that a second file reads is shared.
-        let mut seen = BTreeSet::new();
-        for path in paths.filter(|path| is_gltf(path)) {
-            // A file that cannot be read has no buffers. One file may read a buffer twice.
-            let buffers = external_buffers(&path, &Limits::default()).unwrap_or_default();
-            let buffers: BTreeSet<_> = buffers.into_iter().collect();
-            for buffer in buffers {
-                if !seen.insert(buffer.clone()) {
-                    shared.push(buffer);
-                }
-            }
-        }
-    }
-    shared
 }

@@ -10,6 +10,9 @@ use anyhow::{Context, Result};
 use meshweft::operations::SCHEMA;
 use serde_json::{Value, json};
 
+use super::side_file::is_list;
+use crate::usage::Usage;
+
 /// A file of JSON lines, one for each finished input.
 pub(super) struct Manifest {
     path: PathBuf,
@@ -28,6 +31,12 @@ impl Manifest {
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
             Err(error) => return Err(error).with_context(context),
         };
+
+        if !is_list(text.as_bytes()) {
+            let text =
+                "not every line of this file is one that --manifest writes: choose another name";
+            return Err(Usage(format!("--manifest {}: {text}", path.display())).into());
+        }
 
         // What is done. Lines that are not whole, or say something else, are passed over.
         let mut done = BTreeSet::new();
@@ -63,6 +72,10 @@ impl Manifest {
 
     /// Whether an earlier run wrote `output` from `input`, and it is still there.
     pub(super) fn has(&self, input: &Path, output: &Path) -> bool {
+        // In the list, names that are not UTF-8 may be equal where they are not.
+        if input.to_str().is_none() || output.to_str().is_none() {
+            return false;
+        }
         let pair = (input.display().to_string(), output.display().to_string());
         self.done.contains(&pair) && output.exists()
     }

@@ -35,17 +35,29 @@ pub(crate) const PLOT: SideFile = SideFile {
 pub(crate) const MANIFEST: SideFile = SideFile {
     flag: "--manifest",
     is_own: |start| {
-        const HEAD: &[u8] = b"{\"schema\":";
+        // All of it is looked at later: see `is_list`.
         let line = start
             .split(|&byte| byte == b'\n')
             .next()
             .unwrap_or_default();
-        // A run that was killed may have left half of the only line.
-        let is_half = line.len() == start.len();
-        let has_output = line.windows(9).any(|word| word == b"\"output\":");
-        line.starts_with(HEAD) && (is_half || has_output) || is_half && HEAD.starts_with(line)
+        is_line_of_list(line, line.len() == start.len())
     },
 };
+
+/// Whether every line of a text is one that a run with `--manifest` writes. One that was killed may have
+/// left a part of a line; the next one goes on below it.
+pub(super) fn is_list(text: &[u8]) -> bool {
+    let mut lines = text.split(|&byte| byte == b'\n');
+    lines.all(|line| is_line_of_list(line, true))
+}
+
+/// Whether this is a line of such a list, or with `may_be_cut` the beginning of one.
+fn is_line_of_list(line: &[u8], may_be_cut: bool) -> bool {
+    const HEAD: &[u8] = b"{\"schema\":";
+    let has_output = line.windows(9).any(|word| word == b"\"output\":");
+    let is_cut = may_be_cut && (!line.ends_with(b"}") || line.len() < HEAD.len());
+    line.starts_with(HEAD) && (is_cut || has_output) || is_cut && HEAD.starts_with(line)
+}
 
 impl SideFile {
     /// Whether `path` may be written: it is free, or of this kind, or `force` says so.
@@ -67,6 +79,18 @@ impl SideFile {
                 "this file is not one that {flag} writes: choose another name, or give --force to \
                  replace it"
             )),
+        }
+    }
+
+    /// Whether `path` is not the file that another flag names.
+    pub(crate) fn check_other(&self, path: &Path, other: &Path, flag: &str) -> Result<(), Usage> {
+        match is_same(path, other) {
+            true => Err(Usage(format!(
+                "{} {}: this is the file of {flag}: choose another name",
+                self.flag,
+                path.display()
+            ))),
+            false => Ok(()),
         }
     }
 

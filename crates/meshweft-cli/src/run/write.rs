@@ -1,61 +1,32 @@
 //! Writing the result of a job.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use anyhow::Result;
+use meshweft::files::{Document, Outputs, WriteOptions, Written};
 
-use anyhow::{Context, Result, bail};
-use meshweft::files::{Document, Format, copy_file, is_gzip};
-
+use super::arguments::Run;
 use super::interrupt;
 use super::jobs::Job;
 
-/// What became of a job's result.
-pub(crate) struct Written {
-    pub(crate) bytes: u64,
-    /// Notes about buffers that have another name now.
-    pub(crate) renamed: Vec<String>,
-}
-
-/// Writes the result of a job, creating folders; a read-only file is replaced with `force` only.
+/// Writes the result of a job, as the flags of the run say.
 pub(crate) fn write(
     job: &Job,
     document: &Document,
-    is_changed: bool,
-    force: bool,
+    run: &Run,
+    outputs: &Outputs,
 ) -> Result<Written> {
-    let target = &job.target;
     let _no_interrupt = interrupt::hold_off();
-    if let Some(folder) = target.parent() {
-        fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    }
-    if !force && fs::metadata(target).is_ok_and(|data| data.permissions().readonly()) {
-        bail!(
-            "{} is read-only: give --force to replace it",
-            target.display()
-        );
-    }
-
-    if !is_changed && is_to_be_copied(document, &job.input, target) {
-        let copied = copy_file(&job.input, target);
-        let bytes = copied.with_context(|| target.display().to_string())?;
-        let renamed = Vec::new();
-        return Ok(Written { bytes, renamed });
-    }
-    let written = document.write(target)?;
-    let file = target.display();
-    let note = |(old, new): &(PathBuf, String)| {
-        format!("{file}: its buffer {} is now called {new}", old.display())
-    };
-    Ok(Written {
-        bytes: written.bytes,
-        renamed: written.renamed.iter().map(note).collect(),
-    })
+    let mut options = WriteOptions::default();
+    options.copy_companions = !run.no_copy;
+    options.replace_read_only = run.force;
+    options.outputs = Some(outputs);
+    Ok(document.write_with(&job.target, &options)?)
 }
 
-/// Whether an unchanged file is copied instead of written: a compressed one, whose bytes might
-/// change otherwise, and which brings no buffers along.
-fn is_to_be_copied(document: &Document, input: &Path, target: &Path) -> bool {
-    let is_one_file = document.format() != Format::Gltf;
-    let same_format = Format::of_path(target) == Some(document.format());
-    is_gzip(input) && is_gzip(target) && is_one_file && same_format
+/// Says which buffers have another name now.
+pub(crate) fn renamed_lines(job: &Job, written: &Written) -> Vec<String> {
+    let file = job.target.display();
+    let renamed = written.renamed.iter();
+    let line = renamed
+        .map(|(old, new)| format!("{file}: its buffer {} is now called {new}", old.display()));
+    line.collect()
 }

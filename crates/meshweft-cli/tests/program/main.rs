@@ -3,6 +3,7 @@
 mod basics;
 mod data;
 mod demo;
+mod disk;
 mod many;
 mod nothing_lost;
 

@@ -139,8 +139,9 @@ fn a_read_only_file_is_replaced_with_force_only() {
     let run = folder.run(&["optimize", "mesh.obj", "--in-place"]);
     assert_eq!(run.code(), 1);
     assert!(
-        run.err()
-            .contains("mesh.obj is read-only: give --force to replace it"),
+        run.err().contains(
+            "mesh.obj: it is read-only, and is not replaced unasked. Give --force to replace it"
+        ),
         "{}",
         run.err()
     );

@@ -42,6 +42,15 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     fn beside(&self) -> Vec<Beside<'_>> {
         Vec::new()
     }
+    /// Files that it names, and that are neither read as vertices or faces nor changed: images, materials.
+    /// Paths from the folder of the main file, without `..`; whether they are there is not known.
+    fn companions(&self) -> Vec<PathBuf> {
+        Vec::new()
+    }
+    /// Files that it needs and that were not read to their ends; nothing in them changes.
+    fn unread(&self) -> Vec<PathBuf> {
+        Vec::new()
+    }
     /// The text of the main file as it was read, if nothing in it has changed.
     fn unchanged_text(&self) -> Option<&[u8]> {
         None

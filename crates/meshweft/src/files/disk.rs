@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fs;
-use std::io::{self, Read};
+use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -15,6 +15,7 @@ use flate2::write::GzEncoder;
 
 use super::content::{OutputFile, OutputPlace};
 use super::error::FileErrorKind;
+use super::links::{Stamp, check_link, dangling, spelled_out};
 use crate::limits::Limits;
 
 /// Whether a file of this name is compressed: it ends in `.gz`.
@@ -30,6 +31,10 @@ pub(super) struct Stored {
     pub(super) bytes: Vec<u8>,
     /// Its size where it stands.
     pub(super) size: u64,
+    /// Whether more of it follows, which was not asked for.
+    pub(super) is_cut: bool,
+    /// What tells that it has not changed since.
+    pub(super) stamp: Option<Stamp>,
 }
 
 /// The bytes of a file, or what they decompress to if its name ends in `.gz`; and its size on the
@@ -67,6 +72,7 @@ pub(super) fn read_start(
 
 /// What a file holds, decompressed if its name ends in `.gz`.
 pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Stored, FileErrorKind> {
+    let stamp = Stamp::of(path);
     let (mut source, size) = source(path).map_err(FileErrorKind::Io)?;
     let limit = limits.file_bytes;
 
@@ -97,41 +103,50 @@ pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Stored, FileE
             found,
             limit,
         }),
-        false => Ok(Stored { bytes, size }),
+        false => Ok(Stored {
+            bytes,
+            size,
+            is_cut: false,
+            stamp,
+        }),
     }
 }
 
-/// What a file in a folder or below holds.
+/// What a file in a folder or below holds, of a longer one the first `most` bytes.
 ///
 /// # Errors
 /// As [`read_limited`]; it is not a file, but for example a pipe, or a link that leads out of the folder.
 pub(super) fn read_below(
     folder: &Path,
     relative: &Path,
+    most: u64,
     limits: &Limits,
 ) -> Result<Stored, FileErrorKind> {
     let path = folder.join(relative);
     check_link(&path, folder).map_err(FileErrorKind::Io)?;
-    let is_file = fs::metadata(&path).map_err(FileErrorKind::Io)?.is_file();
-    match is_file {
-        true => read_limited(&path, limits),
-        false => Err(FileErrorKind::Io(io::Error::other("it is not a file"))),
+    let data = fs::metadata(&path).map_err(FileErrorKind::Io)?;
+    if !data.is_file() {
+        return Err(FileErrorKind::Io(io::Error::other("it is not a file")));
     }
-}
 
-/// An error if a link at `path`, or on the way from `folder` to it, leads out of the folder.
-fn check_link(path: &Path, folder: &Path) -> io::Result<()> {
-    let (Ok(target), Ok(folder)) = (path.canonicalize(), spelled_out(folder).canonicalize()) else {
-        // What is not there is found out later.
-        return Ok(());
-    };
-    match target.starts_with(&folder) {
-        true => Ok(()),
-        false => Err(io::Error::other(format!(
-            "it is a link out of the folder, to {}: put the file itself there",
-            target.display()
-        ))),
+    // How long a compressed one is, is known when it is read.
+    if most < limits.file_bytes && (is_gzip(&path) || data.len() > most) {
+        let start = Limits {
+            file_bytes: most + 1,
+            ..*limits
+        };
+        let mut bytes = read_start(&path, &start, |_| u64::MAX)?;
+        if bytes.len() as u64 > most {
+            bytes.pop();
+            return Ok(Stored {
+                bytes,
+                size: data.len(),
+                is_cut: true,
+                stamp: None,
+            });
+        }
     }
+    read_limited(&path, limits)
 }
 
 /// What the names of temporary files end with.
@@ -160,15 +175,6 @@ pub fn remove_abandoned(folder: &Path) {
     }
 }
 
-/// Whether these are one folder, through links too where they are there.
-pub(super) fn is_same_folder(a: &Path, b: &Path) -> bool {
-    let folder = |path: &Path| {
-        let path = spelled_out(path);
-        path.canonicalize().unwrap_or_else(|_| path.to_owned())
-    };
-    folder(a) == folder(b)
-}
-
 /// The files of a folder, as paths that start as the folder is spelled.
 pub(super) fn files_of(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(spelled_out(folder))
@@ -180,16 +186,11 @@ pub(super) fn files_of(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// A folder by a name that is not empty.
-fn spelled_out(folder: &Path) -> &Path {
-    match folder.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => folder,
-    }
-}
-
 /// Whether a file has these bytes, decompressed if its name ends in `.gz`.
 pub(super) fn holds(path: &Path, bytes: &[u8]) -> io::Result<bool> {
+    if dangling(path).is_some() {
+        return Err(io::Error::other("it is a link to nothing"));
+    }
     // A pipe would be waited for.
     if !fs::metadata(path)?.is_file() {
         return Ok(false);
@@ -216,7 +217,7 @@ pub(super) fn holds(path: &Path, bytes: &[u8]) -> io::Result<bool> {
 /// whole, all old or all new: all of them are written and on the disk before the first has its name, and
 /// the main file, the last in the list, has it last. Where no main file was, the disk may take its time.
 ///
-/// Folders that those beside the main one need are made. How many bytes each takes on the disk.
+/// Folders that they need are made. How many bytes each takes on the disk.
 ///
 /// # Errors
 /// What the system says, and of which file or folder; of kind [`io::ErrorKind::AlreadyExists`] if
@@ -241,9 +242,8 @@ pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf
             sizes.push(fs::metadata(&file.path).map_or(0, |data| data.len()));
             continue;
         }
-        // Buffers of a glTF may stand in folders below that of the main file.
-        if let Some(folder) = file.path.parent().filter(|_| file.path != main.path) {
-            fs::create_dir_all(folder).map_err(|error| of(error, folder))?;
+        if let Some(folder) = file.path.parent() {
+            fs::create_dir_all(spelled_out(folder)).map_err(|error| of(error, folder))?;
         }
         let new = Temporary::new(file, is_synced).map_err(|error| of(error, &file.path))?;
         sizes.push(new.size);
@@ -269,15 +269,51 @@ pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf
 ///
 /// # Errors
 /// What the system says.
-pub fn copy_file(from: &Path, to: &Path) -> io::Result<u64> {
+pub(super) fn copy_file(from: &Path, to: &Path) -> io::Result<u64> {
     check_link(to, to.parent().unwrap_or(Path::new("")))?;
-    let mut source = fs::File::open(from)?;
-    let mut new = Temporary::empty(to)?;
-    io::copy(&mut source, &mut new.file)?;
-    new.finish(to.exists())?;
+    let new = Temporary::copy(from, to)?;
     let size = new.size;
     new.rename(false)?;
     Ok(size)
+}
+
+/// What became of a file that was to take a free name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Claim {
+    Done,
+    /// Something has that name.
+    Taken,
+}
+
+/// Copies a file as it is to a name that nothing has, in a folder that is made.
+///
+/// # Errors
+/// What the system says.
+pub(super) fn copy_new(from: &Path, to: &Path) -> io::Result<Claim> {
+    match Temporary::copy(from, to)?.rename(true) {
+        Ok(()) => Ok(Claim::Done),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(Claim::Taken),
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether two files have the same bytes, as they stand there.
+pub(super) fn is_same_content(a: &Path, b: &Path) -> io::Result<bool> {
+    let (data_a, data_b) = (fs::metadata(a)?, fs::metadata(b)?);
+    if !data_a.is_file() || !data_b.is_file() || data_a.len() != data_b.len() {
+        return Ok(false);
+    }
+    let open = |path: &Path| Ok::<_, io::Error>(io::BufReader::new(fs::File::open(path)?));
+    let (mut a, mut b) = (open(a)?, open(b)?);
+    loop {
+        let (left, right) = (a.fill_buf()?, b.fill_buf()?);
+        let count = left.len().min(right.len());
+        if count == 0 || left[..count] != right[..count] {
+            return Ok(left.is_empty() && right.is_empty());
+        }
+        a.consume(count);
+        b.consume(count);
+    }
 }
 
 /// Makes the names of files last. Systems without a way to do this do it on their own.
@@ -322,6 +358,18 @@ impl Temporary {
         Ok(new)
     }
 
+    /// A file with the bytes of another.
+    fn copy(from: &Path, target: &Path) -> io::Result<Self> {
+        if let Some(folder) = target.parent() {
+            fs::create_dir_all(spelled_out(folder))?;
+        }
+        let mut source = fs::File::open(from)?;
+        let mut new = Self::empty(target)?;
+        io::copy(&mut source, &mut new.file)?;
+        new.finish(target.exists())?;
+        Ok(new)
+    }
+
     /// A file without bytes in the folder of its target. A link is followed.
     fn empty(target: &Path) -> io::Result<Self> {
         // Two threads may write one file.
@@ -358,17 +406,21 @@ impl Temporary {
 
     /// Gives it its name; with `is_free`, only if nothing has it.
     fn rename(self, is_free: bool) -> io::Result<()> {
-        if is_free {
-            // Taken first, and then replaced: there is no rename that replaces nothing everywhere.
-            fs::OpenOptions::new()
-                .write(true)
-                .create_new(true)
-                .open(&self.target)?;
+        if !is_free {
+            return fs::rename(&self.path, &self.target);
         }
+        // A second name replaces nothing, and appears whole. The first one goes when this is dropped.
+        match fs::hard_link(&self.path, &self.target) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {}
+            done => return done,
+        }
+        // Without second names on this file system, it is taken first, and then replaced.
+        fs::OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&self.target)?;
         fs::rename(&self.path, &self.target).inspect_err(|_| {
-            if is_free {
-                let _ = fs::remove_file(&self.target);
-            }
+            let _ = fs::remove_file(&self.target);
         })
     }
 }

@@ -1,6 +1,7 @@
 //! A file in memory: its meshes as values, its bytes ready to be patched.
 
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use super::content::Content;
 use super::disk::read_limited;
@@ -8,6 +9,7 @@ use super::edit::{Edit, check_order};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
+use super::links::Stamp;
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
@@ -44,6 +46,12 @@ pub struct Document {
     pub(super) folder: Option<PathBuf>,
     /// The size of the main file, as it was read.
     main_size: u64,
+    /// Whether anything in it has changed.
+    pub(super) is_edited: bool,
+    /// Which file the main one was.
+    pub(super) stamp: Option<Stamp>,
+    /// The files that it has written itself.
+    pub(super) own: Mutex<Vec<Stamp>>,
 }
 
 impl Document {
@@ -64,6 +72,7 @@ impl Document {
         let surroundings = Surroundings::Folder(folder_of(path));
         let mut document = Self::from_bytes_in(stored.bytes, known, path, surroundings, options)?;
         document.main_size = stored.size;
+        document.stamp = stored.stamp;
         Ok(document)
     }
 
@@ -121,6 +130,10 @@ impl Document {
             notes,
             folder: surroundings.folder().map(Path::to_owned),
             main_size,
+            // Strips that were made lists are not as they were read.
+            is_edited: options.strips_to_lists,
+            stamp: None,
+            own: Mutex::default(),
         })
     }
 
@@ -166,6 +179,9 @@ impl Document {
             notes,
             folder: None,
             main_size: 0,
+            is_edited: true,
+            stamp: None,
+            own: Mutex::default(),
         })
     }
 
@@ -186,6 +202,16 @@ impl Document {
     #[must_use]
     pub fn source_bytes(&self) -> u64 {
         self.main_size + self.content.size_beside()
+    }
+
+    /// Files that it names and that do not change with an order, such as images: paths from its folder,
+    /// without `..`, sorted. Whether they are there is not known.
+    #[must_use]
+    pub fn companions(&self) -> Vec<PathBuf> {
+        let mut companions = self.content.companions();
+        companions.sort();
+        companions.dedup();
+        companions
     }
 
     /// The meshes that can be re-ordered, as they now are.
@@ -268,12 +294,15 @@ impl Document {
             } => {
                 check_order(&self.meshes()[mesh], faces, vertices)
                     .map_err(|kind| kind.at(Place::File).in_file(&self.path, Some(self.format)))?;
+                self.is_edited |= faces.is_some_and(|order| !order.is_identity())
+                    || vertices.is_some_and(|order| !order.is_identity());
                 self.content.order(mesh, faces, vertices);
             }
             Edit::Append { meshes, values } => {
                 let notes = self.content.append(meshes, values);
                 self.notes =
                     notes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
+                self.is_edited = true;
             }
         }
         Ok(())

@@ -40,6 +40,9 @@ pub enum Place {
 pub enum FileErrorKind {
     /// The operating system refused.
     Io(std::io::Error),
+    /// A file that would be replaced is read-only, and [`WriteOptions`](super::WriteOptions) do not allow
+    /// that.
+    ReadOnly,
     /// Neither the name nor the first bytes belong to a format that is read.
     UnknownFormat,
     /// The file ends inside what it promised.
@@ -174,6 +177,7 @@ impl fmt::Display for FileErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Io(error) => write!(f, "{error}"),
+            Self::ReadOnly => f.write_str("it is read-only, and is not replaced unasked"),
             Self::UnknownFormat => f.write_str(
                 "unknown format: files that end in .gltf, .glb, .obj, .ply, .off, .stl, .wrl \
                  or .vrml are read, optionally followed by .gz",

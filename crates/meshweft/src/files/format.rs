@@ -27,7 +27,8 @@ impl Format {
     /// The format that a file name stands for; `.gz` at the end is ignored.
     #[must_use]
     pub fn of_path(path: &Path) -> Option<Self> {
-        let name = path.file_name()?.to_str()?.to_ascii_lowercase();
+        // What is not UTF-8 is not in the ending.
+        let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
         let name = name.strip_suffix(".gz").unwrap_or(&name);
         match name.rsplit_once('.')?.1 {
             "gltf" => Some(Self::Gltf),

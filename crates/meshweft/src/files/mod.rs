@@ -12,8 +12,9 @@
 //! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `record_file` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
 //! | where bytes come from | `disk`, `surroundings` |
-//! | where they go, and why nothing is lost on the way | `write`, `placing`, `disk` |
+//! | where they go, and why nothing is lost on the way | `write`, `placing`, `companions`, `links`, `locks`, `disk` |
 
+mod companions;
 mod content;
 mod decoded;
 mod disk;
@@ -24,12 +25,15 @@ mod error;
 mod face_records;
 mod format;
 mod gltf;
+mod links;
+mod locks;
 mod new_mesh;
 mod note;
 mod obj;
 mod off;
 mod options;
 mod orders;
+mod outputs;
 mod placing;
 mod ply;
 mod record_file;
@@ -42,15 +46,16 @@ mod text;
 mod vrml;
 mod write;
 
-pub use disk::{copy_file, is_gzip, remove_abandoned};
+pub use disk::{is_gzip, remove_abandoned};
 pub use document::Document;
 pub use edit::{Edit, NewValue};
 pub use entry::MeshEntry;
 pub use error::{FileError, FileErrorKind, Place};
 pub use format::Format;
-pub use gltf::external_buffers;
+pub use gltf::{external_buffers, shared_buffers};
 pub use new_mesh::{NewMesh, NewVertices};
 pub use note::Note;
 pub use options::ReadOptions;
+pub use outputs::Outputs;
 pub use surroundings::Surroundings;
-pub use write::Written;
+pub use write::{WriteOptions, Written};

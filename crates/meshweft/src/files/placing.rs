@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use super::error::{FileErrorKind, Place, Problem};
+use super::links::Stamp;
 
 /// A file beside the main one.
 #[derive(Debug, Clone, Copy)]
@@ -17,6 +18,8 @@ pub(super) struct Beside<'a> {
     pub(super) relative: &'a Path,
     pub(super) bytes: &'a [u8],
     pub(super) is_changed: bool,
+    /// Which file it was read from.
+    pub(super) stamp: Option<Stamp>,
 }
 
 /// What becomes of a file beside the main one.
@@ -53,10 +56,14 @@ pub(super) struct Placement<'a> {
     /// Whether the document was read from the folder of the main file, and whether from that file.
     pub(super) is_beside: bool,
     pub(super) is_over: bool,
-    /// The files that the main file which is there names, as paths beside it.
+    /// The files that the main file which is there names and that may be replaced, as paths beside it.
     pub(super) named: &'a [PathBuf],
     /// The text of the main file, if it does not change but for the names of others.
     pub(super) text: Option<&'a [u8]>,
+    /// Whether a file may not take a place, a real path; and whether it has changed.
+    pub(super) is_taken: &'a dyn Fn(&Path, bool) -> bool,
+    /// The real path of a file.
+    pub(super) real: fn(&Path) -> PathBuf,
     /// Whether the file at a path holds these bytes.
     pub(super) holds: fn(&Path, &[u8]) -> io::Result<bool>,
 }
@@ -65,18 +72,20 @@ impl Placement<'_> {
     /// What becomes of each.
     ///
     /// # Errors
-    /// A file has to be renamed and the name would not be UTF-8, or one that is there cannot be read.
+    /// The main file has the name of another, or no name is left for one.
     pub(super) fn place(&self, all: &[Beside<'_>]) -> Result<Vec<Placed>, Problem> {
-        let is_path = |beside: &Beside<'_>| self.path.with_file_name(beside.relative) == self.path;
+        let main = (self.real)(self.path);
+        let is_path = |beside: &Beside<'_>| (self.real)(&self.at(beside.relative)) == main;
         if self.is_beside && all.iter().any(is_path) {
             return Err(name_of_a_buffer(self.path));
         }
 
-        let mut placed = Vec::with_capacity(all.len());
+        let own: BTreeSet<PathBuf> = self.named.iter().map(|named| (self.real)(named)).collect();
+        let mut placed: Vec<Placed> = Vec::with_capacity(all.len());
         for beside in all {
-            placed.push(match self.alone(beside) {
+            placed.push(match self.alone(beside, &own) {
                 Some(placed) => placed,
-                None => self.with_new_name(beside, all)?,
+                None => self.with_new_name(beside, all, &placed)?,
             });
         }
 
@@ -85,9 +94,9 @@ impl Placement<'_> {
         let changes_text = placed.iter().any(is_renamed) || self.changes_text();
         let replaced = placed.iter().filter(|placed| **placed == Placed::Replaces);
         if replaced.count() > usize::from(!changes_text) {
-            for (placed, beside) in placed.iter_mut().zip(all) {
-                if *placed == Placed::Replaces {
-                    *placed = self.with_new_name(beside, all)?;
+            for (number, beside) in all.iter().enumerate() {
+                if placed[number] == Placed::Replaces {
+                    placed[number] = self.with_new_name(beside, all, &placed)?;
                 }
             }
         }
@@ -96,15 +105,20 @@ impl Placement<'_> {
 
     /// The files that the main file named and no longer names, as paths beside it.
     pub(super) fn left_over(&self, all: &[Beside<'_>], placed: &[Placed]) -> Vec<PathBuf> {
-        let at = |relative: &Path| self.path.with_file_name(relative);
+        let at = |relative: &Path| (self.real)(&self.at(relative));
         let pairs = all.iter().zip(placed);
         let mut kept: BTreeSet<PathBuf> = pairs.map(|(b, placed)| at(placed.path(b))).collect();
         if self.is_beside && !self.is_over {
             // The source has them still.
             kept.extend(all.iter().map(|beside| at(beside.relative)));
         }
-        let named = self.named.iter().filter(|&named| !kept.contains(named));
-        named.cloned().collect()
+        let left = |named: &&PathBuf| !kept.contains(&(self.real)(named));
+        self.named.iter().filter(left).cloned().collect()
+    }
+
+    /// Where a file beside the main one is.
+    fn at(&self, relative: &Path) -> PathBuf {
+        self.path.with_file_name(relative)
     }
 
     /// What files were called, and what they are called now.
@@ -125,16 +139,21 @@ impl Placement<'_> {
         }
     }
 
-    /// What becomes of a file if no other changes; `None` if it needs another name.
-    fn alone(&self, beside: &Beside<'_>) -> Option<Placed> {
-        let there = self.path.with_file_name(beside.relative);
+    /// What becomes of a file if no other changes, where those at the real paths `own` may be replaced;
+    /// `None` if it needs another name.
+    fn alone(&self, beside: &Beside<'_>, own: &BTreeSet<PathBuf>) -> Option<Placed> {
+        let there = self.at(beside.relative);
         // In the folder that it came from, it is there.
         if self.is_beside && !beside.is_changed {
             return Some(Placed::Stays);
         }
-        let is_named = self.named.contains(&there);
+        let real = (self.real)(&there);
+        let is_named = own.contains(&real);
         if self.is_beside {
             return (self.is_over && is_named).then_some(Placed::Replaces);
+        }
+        if (self.is_taken)(&real, beside.is_changed) {
+            return None;
         }
         match (self.holds)(&there, beside.bytes) {
             Ok(true) => Some(Placed::Stays),
@@ -145,31 +164,35 @@ impl Placement<'_> {
         }
     }
 
-    /// A name that says whose it is, or else what is in it: nobody uses it for anything else.
-    fn with_new_name(&self, beside: &Beside<'_>, all: &[Beside<'_>]) -> Result<Placed, Problem> {
-        let name = self.path.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| {
-            let feature = "the name of a buffer beside the output would not be UTF-8 text: choose \
-                           another name";
-            FileErrorKind::unsupported(feature).at(Place::File)
-        })?;
-        // Characters that URIs of files cannot have.
-        let stem = stem(name).replace([':', '\\'], "_");
+    /// A name that says whose it is, or else what is in it: nobody uses it for anything else, and none of
+    /// those that are `placed` has it.
+    fn with_new_name(
+        &self,
+        beside: &Beside<'_>,
+        all: &[Beside<'_>],
+        placed: &[Placed],
+    ) -> Result<Placed, Problem> {
+        let stem = stem_of(self.path);
+
+        let renamed = |name: String| {
+            let there = self.at(Path::new(&name));
+            if (self.is_taken)(&(self.real)(&there), beside.is_changed) {
+                return None;
+            }
+            let is_there = match (self.holds)(&there, beside.bytes) {
+                Ok(true) => true,
+                Err(error) if error.kind() == io::ErrorKind::NotFound => false,
+                Ok(false) | Err(_) => return None,
+            };
+            Some(Placed::Renamed { name, is_there })
+        };
+        let is_given = |name: &String| {
+            let is_it = |placed: &Placed| matches!(placed, Placed::Renamed { name: given, .. } if given == name);
+            placed.iter().any(is_it)
+        };
 
         // The short name, unless the old main file, or the document, calls something else so.
-        let renamed =
-            |name: String| match (self.holds)(&self.path.with_file_name(&name), beside.bytes) {
-                Ok(true) => Some(Placed::Renamed {
-                    name,
-                    is_there: true,
-                }),
-                Err(error) if error.kind() == io::ErrorKind::NotFound => Some(Placed::Renamed {
-                    name,
-                    is_there: false,
-                }),
-                Ok(false) | Err(_) => None,
-            };
-        let plain = format!("{stem}.bin");
+        let plain = short_name(self.path);
         let others = all.iter().filter(|other| other.relative != beside.relative);
         let is_of_another = others
             .clone()
@@ -177,6 +200,7 @@ impl Placement<'_> {
         let is_single = !others.clone().any(|other| other.is_changed);
         if is_single
             && !is_of_another
+            && !is_given(&plain)
             && !self.is_over
             && let Some(placed) = renamed(plain)
         {
@@ -186,7 +210,9 @@ impl Placement<'_> {
         // Eight digits of what is in it, more if another file has them.
         let digits = format!("{:016x}", content_hash(beside.bytes));
         let names = (8..=digits.len()).map(|length| format!("{stem}.{}.bin", &digits[..length]));
-        let of_another = |name: &String| all.iter().any(|other| other.relative == Path::new(name));
+        let of_another = |name: &String| {
+            all.iter().any(|other| other.relative == Path::new(name)) || is_given(name)
+        };
         let mut free = names.filter(|name| !of_another(name)).filter_map(renamed);
         free.next().ok_or_else(|| {
             let feature = format!(
@@ -205,6 +231,18 @@ pub(super) fn name_of_a_buffer(path: &Path) -> Problem {
         path.display()
     );
     FileErrorKind::unsupported(feature).at(Place::File)
+}
+
+/// What a buffer is called after the main file.
+pub(super) fn short_name(main: &Path) -> String {
+    format!("{}.bin", stem_of(main))
+}
+
+/// The name of a main file without what says its format, as part of the name of another.
+fn stem_of(main: &Path) -> String {
+    let name = main.file_name().unwrap_or_default().to_string_lossy();
+    // Characters that URIs of files cannot have, and what is not UTF-8.
+    stem(&name).replace([':', '\\', char::REPLACEMENT_CHARACTER], "_")
 }
 
 /// A file name without what says its format.

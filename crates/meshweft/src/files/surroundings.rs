@@ -65,8 +65,13 @@ impl<'a> Surroundings<'a> {
         }
     }
 
-    /// What the file at this relative path holds.
-    pub(super) fn read(self, relative: &Path, limits: &Limits) -> Result<Stored, FileErrorKind> {
+    /// What the file at this relative path holds; of a longer one of a disk, the first `most` bytes.
+    pub(super) fn read(
+        self,
+        relative: &Path,
+        most: u64,
+        limits: &Limits,
+    ) -> Result<Stored, FileErrorKind> {
         let absent = |text| {
             Err(FileErrorKind::Io(io::Error::new(
                 io::ErrorKind::NotFound,
@@ -75,14 +80,19 @@ impl<'a> Surroundings<'a> {
         };
         match self {
             Self::Nothing => absent("the document was given without surroundings"),
-            Self::Folder(folder) => read_below(folder, relative, limits),
+            Self::Folder(folder) => read_below(folder, relative, most, limits),
             Self::Memory(files) => {
                 let Some(bytes) = files.get(relative) else {
                     return absent("it is not among the files in memory");
                 };
                 let size = check_size(bytes, limits)?;
                 let bytes = bytes.clone();
-                Ok(Stored { bytes, size })
+                Ok(Stored {
+                    bytes,
+                    size,
+                    is_cut: false,
+                    stamp: None,
+                })
             }
         }
     }

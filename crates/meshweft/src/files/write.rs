@@ -1,16 +1,49 @@
 //! A document is written: to a disk, or to memory.
 
-use std::io;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::PoisonError;
+use std::{fs, io};
 
+use super::companions::{self, Copied};
 use super::content::{OutputFile, OutputPlace};
-use super::disk::{holds, is_same_folder, remove, write_files};
+use super::disk::{copy_file, holds, is_gzip, remove, write_files};
 use super::document::{Document, folder_of};
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::gltf;
-use super::placing::{Placed, Placement, is_made_here};
+use super::links::{
+    Stamp, check_link, check_stays_in_folder, is_read_only, is_same_folder, other_names, real_path,
+    spelled_out,
+};
+use super::locks::FolderLocks;
+use super::note::Note;
+use super::outputs::Outputs;
+use super::placing::{Beside, Placed, Placement, is_made_here};
 use crate::limits::Limits;
+
+/// What [`Document::write_with`] may do.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct WriteOptions<'a> {
+    /// Copy the [companions](Document::companions) along, if the output is in another folder.
+    pub copy_companions: bool,
+    /// Replace files that are read-only.
+    pub replace_read_only: bool,
+    /// The outputs of the run that this one is part of: nothing else is put in their places.
+    pub outputs: Option<&'a Outputs>,
+}
+
+impl Default for WriteOptions<'_> {
+    /// Companions come along, and what is read-only stays.
+    fn default() -> Self {
+        Self {
+            copy_companions: true,
+            replace_read_only: false,
+            outputs: None,
+        }
+    }
+}
 
 /// What [`Document::write`] has written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,6 +56,11 @@ pub struct Written {
     /// Those beside the main file that have another name than the document read them by: what it was, and
     /// what it is, in the folder of the main file.
     pub renamed: Vec<(PathBuf, String)>,
+    /// The companions that are in their places in another folder now: copied, or there before with the same
+    /// bytes.
+    pub copied: Vec<PathBuf>,
+    /// What was left as it was, and why.
+    pub notes: Vec<Note>,
 }
 
 impl Written {
@@ -41,26 +79,53 @@ impl Written {
             files,
             bytes: sizes.iter().sum(),
             renamed: Vec::new(),
+            copied: Vec::new(),
+            notes: Vec::new(),
         }
     }
 }
 
 impl Document {
-    /// Writes the file and the buffers beside it, so that whenever this ends, what was there is whole, or
-    /// what is new is. No file is replaced but `path` and the buffers that the file at `path` names.
-    ///
-    /// In the folder that its buffers were read from, those that have not changed are left alone. Another
-    /// buffer keeps its name if it is the only file that changes, or if nothing has that name; else it is
-    /// called `name.bin` after `path`, or `name.0123abcd.bin` after what is in it. Of the buffers that the
-    /// file at `path` named before, and now does not, those with such digits are removed, unless another
-    /// glTF of the folder names them; others stay.
-    ///
-    /// A name that ends in `.gz` is compressed.
+    /// Writes the file, the buffers beside it, and into another folder copies of its companions, as
+    /// [`write_with`](Self::write_with) does by default.
     ///
     /// # Errors
-    /// [`FileError`] if a file cannot be written, or `path` is of another format.
+    /// As there.
     pub fn write(&self, path: &Path) -> Result<Written, FileError> {
+        self.write_with(path, &WriteOptions::default())
+    }
+
+    /// Writes the file and the buffers beside it, so that whenever this ends, what was there is whole, or
+    /// what is new is. No file is replaced but `path` and the buffers that the file at `path`, and no other
+    /// glTF around it, names. Folders are made.
+    ///
+    /// In the folder that its buffers were read from, those that have not changed are left alone. Another
+    /// buffer keeps its name if it is the only file that changes and no other glTF names it, or if nothing
+    /// has that name; else it is called `name.bin` after `path`, or `name.0123abcd.bin` after what is in it.
+    /// Of the buffers that the file at `path` named before, and now does not, those with such digits are
+    /// removed, unless another glTF names them; others stay. Who names a buffer is found as by
+    /// [`shared_buffers`](super::shared_buffers); a file in the folder that cannot be read may name any.
+    ///
+    /// [Companions](Self::companions) are copied to the same places below the other folder. None of them
+    /// replaces a file; what could not be copied is noted.
+    ///
+    /// Several writers of one folder wait for each other, in this process and in others, where the system
+    /// can lock folders. A name that ends in `.gz` is compressed; a compressed file that has not changed
+    /// is copied.
+    ///
+    /// # Errors
+    /// [`FileError`] if a file cannot be written, or `path` is of another format, or a link that leads
+    /// elsewhere, or a file that would be replaced has changed since it was read; of kind [`FileErrorKind::ReadOnly`] if a read-only file would be replaced.
+    pub fn write_with(
+        &self,
+        path: &Path,
+        options: &WriteOptions<'_>,
+    ) -> Result<Written, FileError> {
         let in_file = |problem: Problem| problem.in_file(path, Some(self.format));
+        let failed = |(path, error): (PathBuf, io::Error)| {
+            let problem = FileErrorKind::Io(error).at(Place::File);
+            problem.in_file(&path, Some(self.format))
+        };
         if Format::of_path(path) != Some(self.format) {
             let feature = format!(
                 "a {} file stays one: give the output the same ending as {}",
@@ -70,47 +135,111 @@ impl Document {
             return Err(in_file(FileErrorKind::unsupported(feature).at(Place::File)));
         }
 
-        // What is there.
+        // What it is replaced by, if only one file is written.
         let beside = self.content.beside();
-        let folder = self.folder.as_deref();
-        let is_beside = folder.is_some_and(|folder| is_same_folder(folder, folder_of(path)));
-        let is_over = is_beside && self.path.file_name() == path.file_name();
-        let named: Vec<PathBuf> = match is_over {
-            true => beside
-                .iter()
-                .map(|b| path.with_file_name(b.relative))
-                .collect(),
-            false if beside.is_empty() || !path.exists() => Vec::new(),
-            // A file that is not a glTF names nothing; what others name too is not its own.
-            false => {
-                let named = gltf::external_buffers(path, &Limits::default()).unwrap_or_default();
-                let others = gltf::named_by_others(path);
-                let is_own =
-                    |buffer: &PathBuf| others.as_ref().is_some_and(|o| !o.contains(buffer));
-                named.into_iter().filter(is_own).collect()
-            }
+        let source = self.folder.as_deref();
+        let is_beside = source.is_some_and(|folder| is_same_folder(folder, folder_of(path)));
+        let main = real_path(path);
+        let is_taken = |place: &Path, is_changed: bool| {
+            let outputs = options.outputs;
+            outputs.is_some_and(|outputs| outputs.keeps_from(&main, place, is_changed))
         };
+        let mut copied = Copied::default();
+        if let Some(source) = source.filter(|_| !is_beside) {
+            // It would name another file than its own.
+            let needed = companions::copy(&self.content.unread(), source, path, &is_taken);
+            if let Some(note) = needed.map_err(failed)?.notes.into_iter().next() {
+                let feature = format!(
+                    "{}, but its meshes are in it: choose another output",
+                    note.text
+                );
+                return Err(in_file(FileErrorKind::unsupported(feature).at(Place::File)));
+            }
+        }
+        if let Some(source) = source.filter(|_| options.copy_companions && !is_beside) {
+            check_link(path, folder_of(path)).map_err(|error| failed((path.to_owned(), error)))?;
+            copied =
+                companions::copy(&self.companions(), source, path, &is_taken).map_err(failed)?;
+        }
+        let mut written = match self.is_to_be_copied(path) {
+            true => self.copy_to(path, options)?,
+            false => self.write_all(path, &beside, is_beside, &is_taken, options)?,
+        };
+        written.copied = copied.files;
+        written.notes.extend(copied.notes);
+        Ok(written)
+    }
+
+    /// Whether it is copied instead of written: a compressed file, whose bytes might change otherwise.
+    fn is_to_be_copied(&self, path: &Path) -> bool {
+        let is_alone = self.content.beside().is_empty() && self.folder.is_some();
+        !self.is_edited && is_alone && is_gzip(&self.path) && is_gzip(path)
+    }
+
+    fn copy_to(&self, path: &Path, options: &WriteOptions<'_>) -> Result<Written, FileError> {
+        check_read_only(path, options)
+            .map_err(|problem| problem.in_file(path, Some(self.format)))?;
+        let bytes = copy_file(&self.path, path).map_err(|error| {
+            let problem = FileErrorKind::Io(error).at(Place::File);
+            problem.in_file(path, Some(self.format))
+        })?;
+        let mut written = Written::of(Vec::new(), Vec::new(), false);
+        (written.files, written.bytes) = (vec![path.to_owned()], bytes);
+        Ok(written)
+    }
+
+    /// Writes the main file and those `beside` it.
+    fn write_all(
+        &self,
+        path: &Path,
+        beside: &[Beside<'_>],
+        is_beside: bool,
+        is_taken: &dyn Fn(&Path, bool) -> bool,
+        options: &WriteOptions<'_>,
+    ) -> Result<Written, FileError> {
+        let in_file = |problem: Problem| problem.in_file(path, Some(self.format));
+        let _locks = self.lock(path, beside).map_err(in_file)?;
+
+        // What is there.
+        let is_over = is_beside && real_path(&self.path) == real_path(path);
+        self.check_unchanged(path, beside, is_beside, is_over)?;
+        let (named, note) = self.own_buffers(path, beside, is_over);
         let placement = Placement {
             path,
             is_beside,
             is_over,
             named: &named,
             text: self.content.unchanged_text(),
+            is_taken,
+            real: real_path,
             holds,
         };
 
         let mut tries = 0;
         loop {
-            let placed = placement.place(&beside).map_err(in_file)?;
+            let placed = placement.place(beside).map_err(in_file)?;
             let mut files = self.content.files(path, &placed).map_err(in_file)?;
             if let Some(main) = files.last_mut().filter(|_| !is_over) {
                 main.place = OutputPlace::Replaced;
             }
+            let replaced = files
+                .iter()
+                .filter(|file| file.place == OutputPlace::Replaced);
+            for file in replaced.clone() {
+                check_read_only(&file.path, options)
+                    .map_err(|problem| problem.in_file(&file.path, Some(self.format)))?;
+            }
+            let mut notes: Vec<Note> = replaced.filter_map(other_names_note).collect();
+
             match write_files(&files) {
                 Ok(sizes) => {
-                    self.remove_left_over(&placement.left_over(&beside, &placed), path);
+                    self.remember(&files);
+                    remove_left_over(placement.left_over(beside, &placed), options);
+                    let renamed = placement.renamed(beside, &placed);
+                    notes.extend(note.filter(|_| !renamed.is_empty()));
                     return Ok(Written {
-                        renamed: placement.renamed(&beside, &placed),
+                        renamed,
+                        notes,
                         ..Written::of(files, sizes, is_beside)
                     });
                 }
@@ -126,19 +255,93 @@ impl Document {
         }
     }
 
-    /// Removes buffers that were made and named here, unless another glTF of the folder may need them.
-    fn remove_left_over(&self, files: &[PathBuf], main: &Path) {
-        let made: Vec<&PathBuf> = files.iter().filter(|file| is_made_here(file)).collect();
-        if made.is_empty() {
-            return;
-        }
-        // One that cannot be read may name anything.
-        let Some(others) = gltf::named_by_others(main) else {
-            return;
+    /// Refuses to write beside files, or over one, that are not those that were read: what somebody else
+    /// has changed would be lost, or would not fit.
+    fn check_unchanged(
+        &self,
+        path: &Path,
+        beside: &[Beside<'_>],
+        is_beside: bool,
+        is_over: bool,
+    ) -> Result<(), FileError> {
+        let own = self.own.lock().unwrap_or_else(PoisonError::into_inner);
+        let buffers = beside.iter().filter(|_| is_beside);
+        let buffers = buffers.map(|buffer| (path.with_file_name(buffer.relative), buffer.stamp));
+        let main = is_over.then(|| (path.to_owned(), self.stamp));
+        let is_other = |now: Option<Stamp>, read: Stamp| {
+            now != Some(read) && !now.is_some_and(|now| own.contains(&now))
         };
-        let free = made.into_iter().filter(|file| !others.contains(*file));
-        let free: Vec<PathBuf> = free.cloned().collect();
-        remove(&free);
+        let mut all = buffers.chain(main);
+        let other =
+            all.find(|(path, read)| read.is_some_and(|read| is_other(Stamp::of(path), read)));
+        other.map_or(Ok(()), |(path, _)| {
+            let feature = "it has changed since it was read: try again";
+            let problem = FileErrorKind::unsupported(feature).at(Place::File);
+            Err(problem.in_file(&path, Some(self.format)))
+        })
+    }
+
+    /// Keeps in mind which files it has written.
+    fn remember(&self, files: &[OutputFile<'_>]) {
+        let written = files
+            .iter()
+            .filter(|file| file.place != OutputPlace::Occupied);
+        let stamps = written.filter_map(|file| Stamp::of(&file.path));
+        let mut own = self.own.lock().unwrap_or_else(PoisonError::into_inner);
+        own.extend(stamps);
+    }
+
+    /// Keeps other writers out of the folders that files go to, if there are files that belong together.
+    fn lock(&self, path: &Path, beside: &[Beside<'_>]) -> Result<FolderLocks, Problem> {
+        let mut folders = BTreeSet::new();
+        if !beside.is_empty() {
+            let refused = |error| FileErrorKind::Io(error).at(Place::File);
+            check_stays_in_folder(path).map_err(refused)?;
+            let folder = folder_of(path);
+            fs::create_dir_all(spelled_out(folder)).map_err(refused)?;
+            folders.insert(real_path(folder));
+            let below = beside.iter();
+            let below =
+                below.filter_map(|b| path.with_file_name(b.relative).parent().map(real_path));
+            folders.extend(below);
+        }
+        Ok(FolderLocks::of(folders))
+    }
+
+    /// The buffers that the main file at `path` names, and no other glTF; and what to say if that cannot be
+    /// told.
+    fn own_buffers(
+        &self,
+        path: &Path,
+        beside: &[Beside<'_>],
+        is_over: bool,
+    ) -> (Vec<PathBuf>, Option<Note>) {
+        let at = |beside: &Beside<'_>| path.with_file_name(beside.relative);
+        let named: Vec<PathBuf> = match is_over {
+            // Nothing is replaced, and nothing left over.
+            true if !beside.iter().any(|beside| beside.is_changed) => Vec::new(),
+            true => beside.iter().map(at).collect(),
+            false if beside.is_empty() || !path.exists() => Vec::new(),
+            // A file that is not a glTF names nothing.
+            false => gltf::external_buffers(path, &Limits::default()).unwrap_or_default(),
+        };
+        if named.is_empty() {
+            return (named, None);
+        }
+        match gltf::named_by_others(path, &named) {
+            Ok(others) => {
+                let is_own = |buffer: &PathBuf| !others.contains(&real_path(buffer));
+                (named.into_iter().filter(is_own).collect(), None)
+            }
+            Err(other) => {
+                let text = format!(
+                    "whether {} names a buffer of this file cannot be told: the old buffers stay as \
+                     they were",
+                    other.display()
+                );
+                (Vec::new(), Some(Note::new(Place::File, text)))
+            }
+        }
     }
 
     /// Every file of the document with its bytes, the main one last: what
@@ -169,6 +372,8 @@ impl Document {
                     is_over: false,
                     named: &[],
                     text: None,
+                    is_taken: &|_, _| false,
+                    real: Path::to_owned,
                     holds: |_, _| Err(io::ErrorKind::NotFound.into()),
                 };
                 placement.place(&beside).map_err(in_file)?
@@ -194,6 +399,35 @@ impl Document {
         let bytes = files.and_then(|files| files.last().map_or(Ok(Vec::new()), bytes_of));
         bytes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
     }
+}
+
+/// Refuses to replace a read-only file unasked.
+fn check_read_only(path: &Path, options: &WriteOptions<'_>) -> Result<(), Problem> {
+    match !options.replace_read_only && is_read_only(path) {
+        true => Err(FileErrorKind::ReadOnly.at(Place::File)),
+        false => Ok(()),
+    }
+}
+
+/// Says that a file has other names, which keep the old bytes.
+fn other_names_note(file: &OutputFile<'_>) -> Option<Note> {
+    let more = other_names(&file.path);
+    (more > 0).then(|| {
+        let text = format!(
+            "{} had {more} more name{} (hard links): what they name stays as it was",
+            file.path.display(),
+            if more == 1 { "" } else { "s" }
+        );
+        Note::new(Place::File, text)
+    })
+}
+
+/// Removes buffers that were made and named here.
+fn remove_left_over(files: Vec<PathBuf>, options: &WriteOptions<'_>) {
+    let is_free =
+        |file: &PathBuf| is_made_here(file) && (options.replace_read_only || !is_read_only(file));
+    let free: Vec<PathBuf> = files.into_iter().filter(is_free).collect();
+    remove(&free);
 }
 
 fn bytes_of(file: &OutputFile<'_>) -> Result<Vec<u8>, Problem> {

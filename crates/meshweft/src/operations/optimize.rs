@@ -8,7 +8,7 @@ use super::counts::{Counts, USUAL_CACHES};
 use super::improve::{Improvement, improve};
 use super::options::{Options, OptionsError};
 use crate::cache::CacheModel;
-use crate::files::{Document, FileError, Note};
+use crate::files::{Document, FileError, Note, Written};
 use crate::order::Target;
 use crate::permutation::{FaceOrder, VertexOrder};
 use crate::progress::Progress;
@@ -126,6 +126,8 @@ pub struct OptimizeReport {
     pub bytes_before: u64,
     /// The same of what was written, or the size before where nothing is changed.
     pub bytes_after: Option<u64>,
+    /// How many files that it names were copied along: set by the caller.
+    pub copied: usize,
     /// How long it took: set by the caller, who has a clock.
     pub seconds: Option<f64>,
     /// What was asked for.
@@ -210,6 +212,7 @@ impl OptimizeReport {
             output: None,
             bytes_before: document.source_bytes(),
             bytes_after: None,
+            copied: 0,
             seconds: None,
             options: options.clone(),
             meshes: meshes.collect(),
@@ -274,5 +277,11 @@ impl OptimizeReport {
     pub fn set_output(&mut self, output: &Path, bytes: u64) {
         self.output = Some(output.to_owned());
         self.bytes_after = Some(bytes);
+    }
+
+    /// Adds what was copied along, and what there is to say about writing.
+    pub fn add_written(&mut self, written: &Written) {
+        self.copied += written.copied.len();
+        self.notes.extend(written.notes.iter().cloned());
     }
 }

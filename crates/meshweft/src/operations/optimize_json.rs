@@ -22,6 +22,7 @@ impl OptimizeReport {
             "bytes",
             json!({"before": self.bytes_before, "after": self.bytes_after}),
         );
+        insert("copied", json!(self.copied));
         insert("seconds", json!(self.seconds));
         insert("cache", json!(self.options.target.to_string()));
         insert("effort", json!(self.options.effort.to_string()));

@@ -6,13 +6,17 @@ mod append_edges;
 mod attributes;
 mod broken;
 mod builder;
+mod companions;
 mod data;
 #[path = "../data/folder.rs"]
 mod data_folder;
 #[path = "../files_errors/mod.rs"]
 mod errors;
 mod in_order;
+mod lengths;
+mod links;
 mod moves;
+mod neighbours;
 mod nothing_lost;
 mod output;
 mod reader;

@@ -1,13 +1,15 @@
 //! The buffers of a glTF: the binary chunk, `data:` URIs and files beside it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::json::Value;
 use super::object::{Object, malformed};
 use super::uri::{decode_data, relative_path, starts_with_ignoring_case};
 use crate::files::disk::Stored;
 use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::links::{Stamp, real_path};
 use crate::files::surroundings::Surroundings;
 use crate::limits::Limits;
 
@@ -17,6 +19,10 @@ pub(super) struct Storage {
     pub(super) bytes: Vec<u8>,
     /// Whether a permutation has moved records in it.
     pub(super) is_changed: bool,
+    /// Whether its file goes on after these bytes.
+    pub(super) is_cut: bool,
+    /// Which file they were read from.
+    pub(super) stamp: Option<Stamp>,
     /// Why nothing in it may be moved.
     pub(super) fixed: Option<&'static str>,
 }
@@ -50,6 +56,11 @@ enum Missing {
     },
 }
 
+/// Why data of a file that goes on may not change.
+const CUT: &str = "its buffer is far longer than its byteLength: cut that file to what is used";
+/// How much longer than it says a file may be, beside twice as long.
+const PADDING: u64 = 1 << 16;
+
 /// Why data of a GLB may not change.
 pub(super) const OUTSIDE_OF_GLB: &str = "its data is not in the binary chunk of the GLB";
 
@@ -65,6 +76,8 @@ pub(super) struct Buffers {
     count: usize,
     /// The size of all files that were read, where they stand.
     pub(super) read_size: u64,
+    /// The files that were not read to their ends, as paths from the folder of the glTF.
+    pub(super) unread: Vec<PathBuf>,
 }
 
 impl Buffers {
@@ -78,6 +91,7 @@ impl Buffers {
         let mut buffers = Self::default();
         let mut external = BTreeMap::new();
         let mut binary = binary;
+        let lengths = external_lengths(root)?;
         for (number, buffer) in root.objects("buffers")?.enumerate() {
             let storage = match buffer?.text("uri")?.as_deref() {
                 None if number == 0 && binary.is_some() => {
@@ -103,9 +117,27 @@ impl Buffers {
                         external
                             .entry(relative.clone())
                             .or_insert_with(|| {
-                                let stored = read_beside(surroundings, &relative, limits)?;
+                                // What follows the bytes that are named is of no use here, and
+                                // may be of any length.
+                                let length = lengths.get(&relative).copied().flatten();
+                                let most = length.map_or(u64::MAX, |l| {
+                                    l.saturating_mul(2).saturating_add(PADDING)
+                                });
+                                let stored = read_beside(surroundings, &relative, most, limits)
+                                    .inspect_err(|missing| {
+                                        if matches!(missing, Missing::OverLimit { .. }) {
+                                            buffers.unread.push(relative.clone());
+                                        }
+                                    })?;
+                                if stored.is_cut {
+                                    buffers.unread.push(relative.clone());
+                                }
                                 buffers.read_size += stored.size;
-                                Ok(buffers.store(Source::External(relative), stored.bytes))
+                                let storage =
+                                    buffers.store(Source::External(relative), stored.bytes);
+                                buffers.storages[storage].is_cut = stored.is_cut;
+                                buffers.storages[storage].stamp = stored.stamp;
+                                Ok(storage)
                             })
                             .clone()
                     }),
@@ -129,10 +161,34 @@ impl Buffers {
 
     /// Says which of them may not change in a file of this name, where the buffers at the paths `keep`
     /// must stay.
-    pub(super) fn fix(&mut self, name: &Path, is_glb: bool, keep: &[PathBuf]) {
-        for storage in &mut self.storages {
+    pub(super) fn fix(
+        &mut self,
+        name: &Path,
+        is_glb: bool,
+        keep: &[PathBuf],
+        surroundings: Surroundings<'_>,
+    ) {
+        // Two names for one file: a change under one would be one under the other.
+        let mut named: BTreeMap<PathBuf, usize> = BTreeMap::new();
+        let mut twice = BTreeSet::new();
+        for (number, storage) in self.storages.iter().enumerate() {
+            if let (Source::External(relative), Some(folder)) =
+                (&storage.source, surroundings.folder())
+                && let Some(other) = named.insert(real_path(&folder.join(relative)), number)
+            {
+                twice.extend([other, number]);
+            }
+        }
+
+        for (number, storage) in self.storages.iter_mut().enumerate() {
+            if twice.contains(&number) {
+                storage.fixed = Some("its buffer is named twice, through a link: name it once");
+            }
             if is_glb && storage.source != Source::Binary {
                 storage.fixed = Some(OUTSIDE_OF_GLB);
+            }
+            if storage.is_cut {
+                storage.fixed = Some(CUT);
             }
             let Source::External(relative) = &storage.source else {
                 continue;
@@ -148,6 +204,8 @@ impl Buffers {
             source,
             bytes,
             is_changed: false,
+            is_cut: false,
+            stamp: None,
             fixed: None,
         });
         self.storages.len() - 1
@@ -256,12 +314,31 @@ pub(super) fn external_paths(root: &Object, path: &Path) -> Result<Vec<PathBuf>,
     Ok(paths)
 }
 
+/// How many bytes of each file are named by the buffers over it; `None` where one does not say.
+fn external_lengths(root: &Object) -> Result<BTreeMap<PathBuf, Option<u64>>, Problem> {
+    let mut lengths = BTreeMap::new();
+    for buffer in root.objects("buffers")? {
+        let buffer = buffer?;
+        let length = buffer.value("byteLength").and_then(Value::whole);
+        let length = length.and_then(|length| u64::try_from(length).ok());
+        // Data in the text may be long, and has no path.
+        let uri = buffer.text("uri")?;
+        let uri = uri.filter(|uri| !starts_with_ignoring_case(uri, "data:"));
+        if let Some(relative) = uri.and_then(|uri| relative_path(&uri).ok()) {
+            let longest = lengths.entry(relative).or_insert(Some(0));
+            *longest = longest.zip(length).map(|(a, b): (u64, u64)| a.max(b));
+        }
+    }
+    Ok(lengths)
+}
+
 fn read_beside(
     surroundings: Surroundings<'_>,
     relative: &Path,
+    most: u64,
     limits: &Limits,
 ) -> Result<Stored, Missing> {
-    let read = surroundings.read(relative, limits);
+    let read = surroundings.read(relative, most, limits);
     read.map_err(|kind| match kind {
         FileErrorKind::Io(error) => Missing::Unreadable(
             error.kind(),

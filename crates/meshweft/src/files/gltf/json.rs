@@ -100,7 +100,7 @@ fn nodes(text: &[u8], nesting: usize) -> Result<Vec<Node>, FileErrorKind> {
 }
 
 /// The byte after a string that starts at `start`.
-fn string_end(text: &[u8], start: usize) -> usize {
+pub(super) fn string_end(text: &[u8], start: usize) -> usize {
     let mut at = start + 1;
     while let Some(&byte) = text.get(at) {
         match byte {

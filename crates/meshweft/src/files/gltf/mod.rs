@@ -13,6 +13,7 @@
 //! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`];
 //! [`notes`] says what stays as it is. Values are read on request: [`attributes`] → [`elements`].
 //! Strips are made lists before all else, if that is asked for: [`strips`].
+//! [`companions`] are the files that it names beside these; [`neighbours`] asks who else names a buffer.
 //! What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the bytes and
 //! values, [`growth`] has the buffer for them, [`scene`] finds where they are drawn, [`additions`] puts values into the text.
 //!
@@ -50,6 +51,7 @@ mod attributes;
 mod base64;
 mod buffers;
 mod byte_users;
+mod companions;
 mod container;
 mod elements;
 mod entries;
@@ -58,6 +60,7 @@ mod groups;
 mod growth;
 mod json;
 mod movable;
+mod neighbours;
 mod new_attributes;
 mod new_meshes;
 mod notes;
@@ -72,13 +75,13 @@ mod strided_records;
 mod strips;
 mod uri;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::{fmt, fs, io};
 
 use super::content::{Content, OutputFile, ReadResult};
-use super::disk::{files_of, read_limited, read_start};
+use super::disk::{read_limited, read_start};
 use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
@@ -95,9 +98,12 @@ use accessors::Accessors;
 use attributes::Attributes;
 use buffers::Buffers;
 use byte_users::ByteUsers;
+use companions::Companions;
 use container::Container;
 use entries::{Corners, Entries};
 use json::{Json, JsonFault, Value};
+pub use neighbours::shared_buffers;
+pub(super) use neighbours::{buffer_names, named_by_others};
 use object::Object;
 use output::Output;
 use primitives::Primitives;
@@ -114,6 +120,8 @@ struct GltfFile {
 struct View {
     /// Where in the JSON the URI of each buffer stands, of those that have one.
     uri_spans: BTreeMap<usize, Range<usize>>,
+    /// The files that it names beside its buffers, as paths from its folder.
+    companions: Vec<PathBuf>,
     entries: Entries,
     attributes: Attributes,
 }
@@ -141,7 +149,7 @@ pub(super) fn read(
     check_version(&root)?;
 
     let mut buffers = Buffers::load(&root, binary, surroundings, limits)?;
-    buffers.fix(name, is_glb, &options.keep_buffers);
+    buffers.fix(name, is_glb, &options.keep_buffers, surroundings);
     let mut options = options.clone();
     let mut first_note = None;
     if std::mem::take(&mut options.strips_to_lists)
@@ -183,9 +191,11 @@ fn look(
     let entries = Entries::new(&primitives, &byte_users, buffers)?;
     let attributes = Attributes::new(root, &accessors, &entries.first_primitives);
 
-    let notes = notes::notes(root, &primitives, &entries, buffers);
+    let companions = Companions::of(root);
+    let notes = notes::notes(&primitives, &entries, buffers, &companions);
     let view = View {
         uri_spans,
+        companions: companions.files.into_iter().collect(),
         entries,
         attributes,
     };
@@ -232,8 +242,7 @@ fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, 
 
 /// The files that the buffers of a glTF or GLB name, as paths beside it.
 ///
-/// Two files of one folder may name the same buffer: see
-/// [`ReadOptions::keep_buffers`](super::ReadOptions::keep_buffers).
+/// Two files may name the same buffer: see [`shared_buffers`].
 ///
 /// # Errors
 /// [`FileError`]: the file cannot be read, is not a glTF, or its JSON is not sound.
@@ -259,21 +268,6 @@ pub fn external_buffers(path: &Path, limits: &Limits) -> Result<Vec<PathBuf>, Fi
         buffers::external_paths(&Object::new(json.root(), String::new())?, path)
     };
     read().map_err(|problem: Problem| problem.in_file(path, format))
-}
-
-/// The files that the buffers of the other glTF files of a folder name; `None` if one of them cannot be
-/// read.
-pub(super) fn named_by_others(path: &Path) -> Option<BTreeSet<PathBuf>> {
-    let is_gltf = |other: &PathBuf| {
-        let format = Format::of_path(other);
-        matches!(format, Some(Format::Gltf | Format::Glb)) && other.file_name() != path.file_name()
-    };
-    let others = files_of(path.parent().unwrap_or(Path::new("")));
-    let mut named = BTreeSet::new();
-    for other in others.into_iter().filter(is_gltf) {
-        named.extend(external_buffers(&other, &Limits::default()).ok()?);
-    }
-    Some(named)
 }
 
 /// Refuses a file that says it is not of glTF 2.
@@ -400,6 +394,14 @@ impl Content for GltfFile {
 
     fn beside(&self) -> Vec<Beside<'_>> {
         self.output().beside()
+    }
+
+    fn companions(&self) -> Vec<PathBuf> {
+        self.view.companions.clone()
+    }
+
+    fn unread(&self) -> Vec<PathBuf> {
+        self.buffers.unread.clone()
     }
 
     fn unchanged_text(&self) -> Option<&[u8]> {

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::buffers::Buffers;
+use super::companions::Companions;
 use super::entries::Entries;
-use super::json::Value;
 use super::movable::{Draws, PrimitiveNumber};
-use super::object::Object;
 use super::primitives::Primitives;
 use crate::files::error::Place;
 use crate::files::note::Note;
@@ -42,12 +41,12 @@ struct First<'a> {
     count: usize,
 }
 
-/// All notes: primitives and vertices in the order of the file, then buffers, then images.
+/// All notes: primitives and vertices in the order of the file, then buffers, then other files.
 pub(super) fn notes(
-    root: &Object,
     primitives: &Primitives,
     entries: &Entries,
     buffers: &Buffers,
+    companions: &Companions,
 ) -> Vec<Note> {
     let mut notes = of_primitives(primitives, entries);
     let note = |pointer: &str, text: String| Note::new(Place::Json(pointer.to_owned()), text);
@@ -59,14 +58,12 @@ pub(super) fn notes(
         ));
     }
 
-    let is_external = |image: Value<'_>| {
-        let uri = image.get("uri").and_then(Value::text);
-        uri.is_some_and(|uri| !uri.starts_with("data:"))
-    };
-    let images = root.value("images").map(Value::elements);
-    if images.is_some_and(|mut images| images.any(is_external)) {
-        let text = "images are files of their own: copy them to the folder of the output";
-        notes.push(note("/images", text.to_owned()));
+    if let Some((why, more)) = &companions.refused {
+        let note = Note::new(Place::File, format!("not copied to another folder: {why}"));
+        notes.push(Note {
+            more: *more,
+            ..note
+        });
     }
     notes
 }

@@ -26,10 +26,13 @@ impl<'a> Output<'a> {
     pub(super) fn beside(&self) -> Vec<Beside<'a>> {
         let storages = self.buffers.storages.iter();
         let external = storages.filter_map(|storage| match &storage.source {
+            // What was not read whole is copied as it is.
+            Source::External(_) if storage.is_cut => None,
             Source::External(relative) => Some(Beside {
                 relative,
                 bytes: &storage.bytes,
                 is_changed: storage.is_changed,
+                stamp: storage.stamp,
             }),
             Source::Binary | Source::Data { .. } => None,
         });
@@ -58,6 +61,7 @@ impl<'a> Output<'a> {
         for (number, storage) in self.buffers.storages.iter().enumerate() {
             match &storage.source {
                 Source::Binary => {}
+                Source::External(_) if storage.is_cut => {}
                 Source::Data { buffer, prefix } => {
                     if storage.is_changed {
                         let encoded = base64::encode(&storage.bytes);

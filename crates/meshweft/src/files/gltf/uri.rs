@@ -70,6 +70,19 @@ pub(super) fn relative_path(uri: &str) -> Result<PathBuf, String> {
     }
 }
 
+/// Whether a URI names nothing on this disk: data in the text, or something of the web.
+pub(super) fn is_of_another_place(uri: &str) -> bool {
+    let scheme = uri.split_once(':').map(|(scheme, _)| scheme);
+    // One letter is a drive.
+    scheme.is_some_and(|scheme| {
+        scheme.len() > 1
+            && scheme.starts_with(|c: char| c.is_ascii_alphabetic())
+            && scheme
+                .chars()
+                .all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c))
+    })
+}
+
 fn percent_decoded(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -135,6 +148,16 @@ mod tests {
             "%FF.bin",
         ] {
             assert!(relative_path(uri).is_err(), "{uri}");
+        }
+    }
+
+    #[test]
+    fn what_is_on_the_web_is_not_on_this_disk() {
+        for uri in ["data:,", "https://host/a.png", "urn:x", "x-a+b.c:d"] {
+            assert!(is_of_another_place(uri), "{uri}");
+        }
+        for uri in ["a.png", "C:/a.png", "a/b:c", "1:2", ":", "a b:c"] {
+            assert!(!is_of_another_place(uri), "{uri}");
         }
     }
 

@@ -1,0 +1,109 @@
+//! Files that a document names and that have nothing to do with an order: images, materials. They come
+//! along to another folder, and replace nothing there.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use super::disk::{Claim, copy_new, is_same_content};
+use super::error::Place;
+use super::links::{check_link, dangling, real_path};
+use super::note::Note;
+
+/// What became of the files that a document names.
+#[derive(Debug, Default)]
+pub(super) struct Copied {
+    /// Those that are in their places now.
+    pub(super) files: Vec<PathBuf>,
+    pub(super) notes: Vec<Note>,
+}
+
+/// Copies files from a folder to that of `main`, each to the same place below it.
+///
+/// One that is there with the same bytes is left, and one that cannot be read, or whose place is taken
+/// (by another file, or as `is_taken` says of its real path), is noted.
+///
+/// # Errors
+/// What the system says about writing, and of which file.
+pub(super) fn copy(
+    companions: &[PathBuf],
+    from: &Path,
+    main: &Path,
+    is_taken: &dyn Fn(&Path, bool) -> bool,
+) -> Result<Copied, (PathBuf, io::Error)> {
+    let mut copied = Copied::default();
+    // One note for each reason: a document may name very many.
+    let mut left: BTreeMap<String, (PathBuf, usize)> = BTreeMap::new();
+    for relative in companions {
+        let (source, target) = (from.join(relative), main.with_file_name(relative));
+        match place(&source, from, &target, main, is_taken) {
+            Ok(true) => match copy_new(&source, &target) {
+                Ok(Claim::Taken) if !is_same_content(&source, &target).unwrap_or(false) => {
+                    leave(&mut left, relative, ANOTHER);
+                }
+                Ok(Claim::Taken | Claim::Done) => copied.files.push(target),
+                Err(error) => return Err((target, error)),
+            },
+            Ok(false) => copied.files.push(target),
+            Err(why) => leave(&mut left, relative, &why),
+        }
+    }
+
+    copied.notes = left
+        .into_iter()
+        .map(|(why, (first, more))| Note {
+            more,
+            ..Note::new(
+                Place::File,
+                format!("{} is not copied: {why}", first.display()),
+            )
+        })
+        .collect();
+    Ok(copied)
+}
+
+/// Why a file stays where it is whose place is taken.
+const ANOTHER: &str = "another file of this name is there";
+
+fn leave(left: &mut BTreeMap<String, (PathBuf, usize)>, relative: &Path, why: &str) {
+    match left.get_mut(why) {
+        Some((_, more)) => *more += 1,
+        None => drop(left.insert(why.to_owned(), (relative.to_owned(), 0))),
+    }
+}
+
+/// Whether a file is to be copied, or why not; it need not be if it is there already.
+fn place(
+    source: &Path,
+    from: &Path,
+    target: &Path,
+    main: &Path,
+    is_taken: &dyn Fn(&Path, bool) -> bool,
+) -> Result<bool, String> {
+    check_link(source, from).map_err(|error| error.to_string())?;
+    match fs::metadata(source) {
+        Ok(data) if data.is_file() => {}
+        Ok(_) => return Err("it is not a file".into()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return Err("it does not exist".into());
+        }
+        Err(error) => return Err(error.to_string()),
+    }
+    // One that cannot be read must not end the run.
+    fs::File::open(source).map_err(|error| error.to_string())?;
+
+    let folder = main.parent().unwrap_or(Path::new(""));
+    check_link(target, folder).map_err(|error| format!("at its place, {error}"))?;
+    let place = real_path(target);
+    if place == real_path(main) || is_taken(&place, false) {
+        return Err("another output of this run has its name".into());
+    }
+    if !target.exists() && dangling(target).is_none() {
+        return Ok(true);
+    }
+    match is_same_content(source, target) {
+        Ok(true) => Ok(false),
+        Ok(false) => Err(ANOTHER.into()),
+        Err(error) => Err(format!("what has its name cannot be read ({error})")),
+    }
+}
