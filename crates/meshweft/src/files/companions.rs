@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use super::disk::{Claim, copy_new, is_same_content};
+use super::disk::{Claim, copy_new, is_same_content, remove_abandoned_below};
 use super::error::Place;
 use super::links::{check_link, dangling, real_path};
 use super::note::Note;
@@ -32,6 +32,10 @@ pub(super) fn copy(
     is_taken: &dyn Fn(&Path, bool) -> bool,
 ) -> Result<Copied, (PathBuf, io::Error)> {
     let mut copied = Copied::default();
+    let targets = companions
+        .iter()
+        .map(|relative| main.with_file_name(relative));
+    remove_abandoned_below(targets, main);
     // One note for each reason: a document may name very many.
     let mut left: BTreeMap<String, (PathBuf, usize)> = BTreeMap::new();
     for relative in companions {

@@ -15,7 +15,7 @@ use flate2::write::GzEncoder;
 
 use super::content::{OutputFile, OutputPlace};
 use super::error::FileErrorKind;
-use super::links::{Stamp, check_link, dangling, spelled_out};
+use super::links::{Stamp, check_link, dangling, real_path, spelled_out};
 use crate::limits::Limits;
 
 /// Whether a file of this name is compressed: it ends in `.gz`.
@@ -167,12 +167,22 @@ pub fn remove_abandoned(folder: &Path) {
             continue;
         }
         let path = entry.path();
-        // Its writer holds a lock as long as it lives.
-        let is_abandoned = fs::File::open(&path).is_ok_and(|file| file.try_lock().is_ok());
-        if is_abandoned {
+        // Its writer holds a lock as long as it lives, or is about to take it and then looks again.
+        if let Ok(file) = fs::File::open(&path)
+            && file.try_lock().is_ok()
+        {
             let _ = fs::remove_file(path);
         }
     }
+}
+
+/// Removes abandoned files where these will stand, in folders below that of `main`.
+pub(super) fn remove_abandoned_below(files: impl Iterator<Item = PathBuf>, main: &Path) {
+    let folder = real_path(main.parent().unwrap_or(Path::new("")));
+    let folders = files.filter_map(|file| file.parent().map(real_path));
+    let below = folders.filter(|below| *below != folder && below.starts_with(&folder));
+    let below: BTreeSet<PathBuf> = below.collect();
+    below.iter().for_each(|below| remove_abandoned(below));
 }
 
 /// The files of a folder, as paths that start as the folder is spelled.
@@ -375,15 +385,24 @@ impl Temporary {
         // Two threads may write one file.
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
-        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let mut name = OsString::from(".");
-        name.push(target.file_name().unwrap_or_default());
-        name.push(format!(".{}-{number}{TEMPORARY}", std::process::id()));
-        let path = target.with_file_name(name);
+        let mut tries = 0;
+        let (path, file) = loop {
+            let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+            let mut name = OsString::from(".");
+            name.push(target.file_name().unwrap_or_default());
+            name.push(format!(".{}-{number}{TEMPORARY}", std::process::id()));
+            let path = target.with_file_name(name);
 
-        let file = fs::File::create(&path)?;
-        // Not every file system has locks; without one nobody clears up after a dead writer.
-        let _ = file.lock();
+            let file = fs::File::create(&path)?;
+            // Not every file system has locks; without one nobody clears up after a dead writer.
+            let _ = file.lock();
+            // Before it was locked, somebody may have taken it for abandoned.
+            tries += 1;
+            if path.exists() || tries > 16 {
+                break (path, file);
+            }
+        };
+
         Ok(Self {
             path,
             target,

@@ -7,7 +7,7 @@ use std::{fs, io};
 
 use super::companions::{self, Copied};
 use super::content::{OutputFile, OutputPlace};
-use super::disk::{copy_file, holds, is_gzip, remove, write_files};
+use super::disk::{copy_file, holds, is_gzip, remove, remove_abandoned_below, write_files};
 use super::document::{Document, folder_of};
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
@@ -203,6 +203,8 @@ impl Document {
         // What is there.
         let is_over = is_beside && real_path(&self.path) == real_path(path);
         self.check_unchanged(path, beside, is_beside, is_over)?;
+        let targets = beside.iter().map(|b| path.with_file_name(b.relative));
+        remove_abandoned_below(targets, path);
         let (named, note) = self.own_buffers(path, beside, is_over);
         let placement = Placement {
             path,
