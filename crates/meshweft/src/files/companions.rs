@@ -7,7 +7,7 @@ use std::{fs, io};
 
 use super::disk::{Claim, copy_new, is_same_content, remove_abandoned_below};
 use super::error::Place;
-use super::links::{check_link, dangling, real_path};
+use super::links::{check_link, real_path};
 use super::note::Note;
 
 /// What became of the files that a document names.
@@ -41,15 +41,16 @@ pub(super) fn copy(
     for relative in companions {
         let (source, target) = (from.join(relative), main.with_file_name(relative));
         match place(&source, from, &target, main, is_taken) {
-            Ok(true) => match copy_new(&source, &target) {
+            Ok(Found::ToCopy) => match copy_new(&source, &target) {
                 Ok(Claim::Taken) if !is_same_content(&source, &target).unwrap_or(false) => {
                     leave(&mut left, relative, ANOTHER);
                 }
                 Ok(Claim::Taken | Claim::Done) => copied.files.push(target),
                 Err(error) => return Err((target, error)),
             },
-            Ok(false) => copied.files.push(target),
-            Err(why) => leave(&mut left, relative, &why),
+            Ok(Found::There) => copied.files.push(target),
+            Ok(Found::Left(why)) => leave(&mut left, relative, &why),
+            Err(error) => return Err((source, error)),
         }
     }
 
@@ -76,38 +77,67 @@ fn leave(left: &mut BTreeMap<String, (PathBuf, usize)>, relative: &Path, why: &s
     }
 }
 
-/// Whether a file is to be copied, or why not; it need not be if it is there already.
+/// What there is at the two ends of a copy.
+enum Found {
+    ToCopy,
+    /// It has been copied before.
+    There,
+    /// It is not copied, and why.
+    Left(String),
+}
+
+/// Whether a file is to be copied.
+///
+/// # Errors
+/// It may be there, but the system cannot read it now.
 fn place(
     source: &Path,
     from: &Path,
     target: &Path,
     main: &Path,
     is_taken: &dyn Fn(&Path, bool) -> bool,
-) -> Result<bool, String> {
-    check_link(source, from).map_err(|error| error.to_string())?;
-    match fs::metadata(source) {
-        Ok(data) if data.is_file() => {}
-        Ok(_) => return Err("it is not a file".into()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            return Err("it does not exist".into());
-        }
-        Err(error) => return Err(error.to_string()),
-    }
-    // One that cannot be read must not end the run.
-    fs::File::open(source).map_err(|error| error.to_string())?;
+) -> io::Result<Found> {
+    let left = |why: String| Ok(Found::Left(why));
 
+    // The source: a file that can be read.
+    if let Err(error) = check_link(source, from) {
+        return left(error.to_string());
+    }
+    let opened = fs::metadata(source).and_then(|data| match data.is_file() {
+        true => fs::File::open(source).map(|_| true),
+        false => Ok(false),
+    });
+    match opened {
+        Ok(true) => {}
+        Ok(false) => return left("it is not a file".into()),
+        Err(error) => {
+            return match error.kind() {
+                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => {
+                    left("it does not exist".into())
+                }
+                io::ErrorKind::PermissionDenied | io::ErrorKind::InvalidFilename => {
+                    left(error.to_string())
+                }
+                _ => Err(error),
+            };
+        }
+    }
+
+    // Its place: free, or with the same file.
     let folder = main.parent().unwrap_or(Path::new(""));
-    check_link(target, folder).map_err(|error| format!("at its place, {error}"))?;
+    if let Err(error) = check_link(target, folder) {
+        return left(format!("at its place, {error}"));
+    }
     let place = real_path(target);
     if place == real_path(main) || is_taken(&place, false) {
-        return Err("another output of this run has its name".into());
+        return left("another output of this run has its name".into());
     }
-    if !target.exists() && dangling(target).is_none() {
-        return Ok(true);
+    if !target.exists() {
+        return Ok(Found::ToCopy);
     }
     match is_same_content(source, target) {
-        Ok(true) => Ok(false),
-        Ok(false) => Err(ANOTHER.into()),
-        Err(error) => Err(format!("what has its name cannot be read ({error})")),
+        Ok(true) => Ok(Found::There),
+        Ok(false) => left(ANOTHER.into()),
+        Err(error) => left(format!("what has its name cannot be read ({error})")),
     }
 }

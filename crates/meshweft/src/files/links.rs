@@ -106,9 +106,9 @@ pub(super) struct Stamp {
 }
 
 impl Stamp {
-    /// That of the file which is there now.
+    /// That of the file which is there now, if it is one.
     pub(super) fn of(path: &Path) -> Option<Self> {
-        let data = fs::metadata(path).ok()?;
+        let data = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
         #[cfg(unix)]
         let number = std::os::unix::fs::MetadataExt::ino(&data);
         #[cfg(not(unix))]

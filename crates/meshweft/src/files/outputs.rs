@@ -22,6 +22,8 @@ pub struct Outputs {
     wanted: BTreeMap<PathBuf, Wanted>,
     /// Who could call a buffer so, after itself.
     short: BTreeMap<PathBuf, BTreeSet<PathBuf>>,
+    /// Which buffers the files around them name, as far as it has been asked.
+    pub(super) known: gltf::Known,
 }
 
 /// Who would put buffers to one place.

@@ -205,7 +205,7 @@ impl Document {
         self.check_unchanged(path, beside, is_beside, is_over)?;
         let targets = beside.iter().map(|b| path.with_file_name(b.relative));
         remove_abandoned_below(targets, path);
-        let (named, note) = self.own_buffers(path, beside, is_over);
+        let (named, note) = self.own_buffers(path, beside, is_over, options);
         let placement = Placement {
             path,
             is_beside,
@@ -317,6 +317,7 @@ impl Document {
         path: &Path,
         beside: &[Beside<'_>],
         is_over: bool,
+        options: &WriteOptions<'_>,
     ) -> (Vec<PathBuf>, Option<Note>) {
         let at = |beside: &Beside<'_>| path.with_file_name(beside.relative);
         let named: Vec<PathBuf> = match is_over {
@@ -330,7 +331,10 @@ impl Document {
         if named.is_empty() {
             return (named, None);
         }
-        match gltf::named_by_others(path, &named) {
+        let known = options
+            .outputs
+            .map_or_else(Default::default, |run| run.known.clone());
+        match gltf::named_by_others(path, &named, known) {
             Ok(others) => {
                 let is_own = |buffer: &PathBuf| !others.contains(&real_path(buffer));
                 (named.into_iter().filter(is_own).collect(), None)

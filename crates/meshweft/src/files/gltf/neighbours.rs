@@ -3,8 +3,8 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use serde_json::value::RawValue;
 
@@ -14,11 +14,11 @@ use super::json::{string_at, string_end};
 use super::uri::{is_of_another_place, relative_path};
 use crate::files::disk::{files_of, read_start};
 use crate::files::format::Format;
-use crate::files::links::real_path;
+use crate::files::links::{Stamp, real_path};
 use crate::limits::Limits;
 
 /// Most bytes of JSON that are read of one file, decompressed.
-const MOST_JSON: u64 = 64 << 20;
+const MOST_JSON: u64 = 32 << 20;
 /// Most bytes of JSON that are read for one answer.
 const MOST_JSON_IN_ALL: u64 = 1 << 30;
 /// Most files that one glTF may name.
@@ -28,7 +28,7 @@ const MOST_NAMES: usize = 1 << 16;
 /// [`ReadOptions::keep_buffers`](crate::files::ReadOptions::keep_buffers) takes it.
 ///
 /// Looked at are the glTF files in the folder of each file, in the one above, in those of its buffers
-/// and in those between; links are followed. Their JSON is read, up to 64 MiB of a file and 1 GiB in
+/// and in those between; links are followed. Their JSON is read, up to 32 MiB of a file and 1 GiB in
 /// all; what cannot be read, or is over that, names nothing here
 /// ([`Document::write`](crate::files::Document::write) then leaves the buffers of that folder as they are,
 /// and gives the document its own).
@@ -55,15 +55,31 @@ pub fn shared_buffers<'a>(files: impl IntoIterator<Item = &'a Path>) -> Vec<Path
     shared
 }
 
-/// Of some buffers of `main`, those that another glTF names, as real paths.
+/// What was found out of files before, by their paths: it holds as long as they are the same.
+#[derive(Debug, Clone, Default)]
+pub(in crate::files) struct Known(Arc<Mutex<BTreeMap<PathBuf, (Stamp, Named)>>>);
+
+/// The real path of a glTF, and those of the buffers that it names; `None` if that cannot be told.
+#[derive(Debug, Clone)]
+struct Named {
+    user: PathBuf,
+    buffers: Option<Vec<PathBuf>>,
+}
+
+/// Of some buffers of `main`, those that another glTF names, as real paths; what is found out is kept in
+/// `known`.
 ///
 /// # Errors
 /// A glTF of which this cannot be told, because it cannot be read, or not within limits.
 pub(in crate::files) fn named_by_others(
     main: &Path,
     buffers: &[PathBuf],
+    known: Known,
 ) -> Result<BTreeSet<PathBuf>, PathBuf> {
-    let mut users = Users::default();
+    let mut users = Users {
+        known,
+        ..Users::default()
+    };
     users.look_around(main, buffers);
     let own = real_path(main);
     if let Some(untold) = users.untold.into_iter().find(|file| *file != own) {
@@ -90,6 +106,7 @@ struct Users {
     folders: BTreeMap<PathBuf, bool>,
     /// How many bytes of JSON were read.
     read: u64,
+    known: Known,
 }
 
 impl Users {
@@ -126,18 +143,15 @@ impl Users {
         self.folders.insert(folder.to_owned(), is_to_be_told);
 
         let mut files = files_of(folder);
+        files.retain(|path| is_gltf(path));
         files.sort();
-        let is_file = |path: &PathBuf| fs::metadata(path).is_ok_and(|data| data.is_file());
-        for file in files
-            .into_iter()
-            .filter(|path| is_gltf(path))
-            .filter(is_file)
-        {
-            let user = real_path(&file);
-            match self.names(&file) {
-                Some(names) => {
-                    for name in names {
-                        let buffer = real_path(&file.with_file_name(name));
+        for file in files {
+            let Some(Named { user, buffers }) = self.named(file) else {
+                continue;
+            };
+            match buffers {
+                Some(buffers) => {
+                    for buffer in buffers {
                         self.of.entry(buffer).or_default().insert(user.clone());
                     }
                 }
@@ -145,6 +159,26 @@ impl Users {
                 None => {}
             }
         }
+    }
+
+    /// What a glTF names; nothing if it is not a file.
+    fn named(&mut self, file: PathBuf) -> Option<Named> {
+        let stamp = Stamp::of(&file)?;
+        let known = self.known.0.clone();
+        let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((before, named)) = known.get(&file)
+            && *before == stamp
+        {
+            return Some(named.clone());
+        }
+        let names = self.names(&file);
+        let real = |name: &PathBuf| real_path(&file.with_file_name(name));
+        let named = Named {
+            user: real_path(&file),
+            buffers: names.map(|names| names.iter().map(real).collect()),
+        };
+        known.insert(file, (stamp, named.clone()));
+        Some(named)
     }
 
     /// The files that the buffers of a glTF name, as paths from its folder; `None` if that cannot be told.
