@@ -65,8 +65,13 @@ impl<'a> Surroundings<'a> {
         }
     }
 
-    /// What the file at this relative path holds; of a longer one of a disk, the first `most` bytes.
-    pub(super) fn read(
+    /// What the file at this relative path holds.
+    pub(super) fn read(self, relative: &Path, limits: &Limits) -> Result<Stored, FileErrorKind> {
+        self.read_start(relative, u64::MAX, limits)
+    }
+
+    /// The same; of a longer file of a disk, the first `most` bytes.
+    pub(super) fn read_start(
         self,
         relative: &Path,
         most: u64,

@@ -120,9 +120,8 @@ impl Buffers {
                                 // What follows the bytes that are named is of no use here, and
                                 // may be of any length.
                                 let length = lengths.get(&relative).copied().flatten();
-                                let most = length.map_or(u64::MAX, |l| {
-                                    l.saturating_mul(2).saturating_add(PADDING)
-                                });
+                                let most =
+                                    length.map(|l| l.saturating_mul(2).saturating_add(PADDING));
                                 let stored = read_beside(surroundings, &relative, most, limits)
                                     .inspect_err(|missing| {
                                         if matches!(missing, Missing::OverLimit { .. }) {
@@ -335,10 +334,13 @@ fn external_lengths(root: &Object) -> Result<BTreeMap<PathBuf, Option<u64>>, Pro
 fn read_beside(
     surroundings: Surroundings<'_>,
     relative: &Path,
-    most: u64,
+    most: Option<u64>,
     limits: &Limits,
 ) -> Result<Stored, Missing> {
-    let read = surroundings.read(relative, most, limits);
+    let read = match most {
+        Some(most) => surroundings.read_start(relative, most, limits),
+        None => surroundings.read(relative, limits),
+    };
     read.map_err(|kind| match kind {
         FileErrorKind::Io(error) => Missing::Unreadable(
             error.kind(),
