@@ -264,3 +264,38 @@ fn links_are_followed_within_the_folder_only() {
     let error = Document::open(&source, Limits::default()).unwrap_err();
     assert!(error.to_string().contains("it is not a file"), "{error}");
 }
+
+#[test]
+fn a_file_that_somebody_has_changed_since_is_not_replaced() {
+    for changed in ["scene.gltf", "a.bin"] {
+        let folder = Folder::new("changed-since");
+        let source = external(&folder, "a.bin", "a.bin");
+        let document = ordered(&source);
+        let path = folder.0.join(changed);
+        let mut bytes = fs::read(&path).unwrap();
+        bytes.extend_from_slice(b"  ");
+        fs::write(&path, &bytes).unwrap();
+        let error = document.write(&source).unwrap_err();
+        assert_eq!(error.path, path);
+        assert!(
+            error
+                .to_string()
+                .contains("it has changed since it was read"),
+            "{error}"
+        );
+        assert_eq!(fs::read(&path).unwrap(), bytes);
+
+        // Elsewhere it is no matter, and what it has written itself it may replace.
+        let output = folder.0.join("out/scene.gltf");
+        document.write(&output).unwrap();
+        let mut again = ordered(&output);
+        for seed in 5..8 {
+            random_orders(&mut again, seed);
+            again.write(&output).unwrap();
+        }
+        assert!(
+            Reader::of_file(&output, None).triangles()
+                == Reader::of_file(&source, None).triangles()
+        );
+    }
+}
