@@ -49,6 +49,7 @@ mod error;
 mod faces;
 #[cfg(feature = "files")]
 pub mod files;
+mod first_use;
 pub mod geometry;
 mod index;
 mod limits;

@@ -142,6 +142,15 @@ pub fn misses_per_face<'a>(faces: impl Into<Faces<'a>>, model: CacheModel) -> Ve
 #[must_use]
 pub fn overfetch<'a>(faces: impl Into<Faces<'a>>, vertex_size: usize) -> f64 {
     let faces = faces.into();
+    let stored = used_vertices(faces) as u64 * vertex_size as u64;
+    match fetched(faces, vertex_size) {
+        0 => 0.0,
+        fetched => fetched as f64 / stored as f64,
+    }
+}
+
+/// Bytes fetched for vertex records of `vertex_size` bytes; see [`overfetch`].
+pub(crate) fn fetched(faces: Faces<'_>, vertex_size: usize) -> u64 {
     const LINE: u64 = 64;
     const LINES: usize = 2048;
     assert!(
@@ -163,11 +172,7 @@ pub fn overfetch<'a>(faces: impl Into<Faces<'a>>, vertex_size: usize) -> f64 {
             }
         }
     }
-    let stored = used_vertices(faces) as u64 * size;
-    match stored {
-        0 => 0.0,
-        _ => fetched as f64 / stored as f64,
-    }
+    fetched
 }
 
 #[cfg(test)]

@@ -24,5 +24,5 @@ pub use controllable::{CacheEvent, Schedule, ScheduleError};
 pub(crate) use drawing::Drawing;
 pub(crate) use fifo::Fifo;
 pub use metrics::{CacheReport, acmr, atvr, misses, misses_per_face, overfetch, report};
-pub(crate) use metrics::{ratio, used_vertices};
+pub(crate) use metrics::{fetched, ratio, used_vertices};
 pub use model::{BatchModel, CacheModel, MAX_CACHE_SIZE, MIN_CACHE_SIZE, ParseCacheModelError};

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::Mesh;
+use crate::first_use::FirstUse;
 use crate::index::index32;
 use crate::permutation::{FaceOrder, Permutation, VertexOrder};
 
@@ -61,7 +62,7 @@ impl MeshEntry {
     /// allows it. Where the faces must stay, `face_order` is not called.
     ///
     /// # Complexity
-    /// That of `face_order` on each run, plus O(faces + vertices).
+    /// That of `face_order` on each run, plus O(faces).
     pub fn record_order(
         &self,
         mut face_order: impl FnMut(&Mesh, Option<&[u32]>) -> FaceOrder,
@@ -84,7 +85,7 @@ impl MeshEntry {
         // Order one run after the other.
         let mut new_to_old = Vec::with_capacity(record_count);
         let mut rotations = Vec::new();
-        let mut local_of = vec![UNNUMBERED; self.mesh.vertex_count()];
+        let mut numbers = FirstUse::new(self.mesh.vertex_count(), 3 * self.mesh.face_count());
         let starts = self.runs.iter().map(|&start| start as usize);
         let ends = starts.clone().skip(1).chain([record_count]);
         for (start, end) in starts.zip(ends) {
@@ -92,7 +93,7 @@ impl MeshEntry {
                 new_to_old.push(record);
                 rotations.push(rotation);
             };
-            self.order_run(start..end, &mut local_of, &mut face_order, emit);
+            self.order_run(start..end, &mut numbers, &mut face_order, emit);
         }
 
         // A record that is not a triangle is never turned.
@@ -104,12 +105,10 @@ impl MeshEntry {
     }
 
     /// Passes the records of one run to `emit` in their new order, each with its rotation.
-    ///
-    /// `local_of` is for numbering vertices: all [`UNNUMBERED`], before and after.
     fn order_run(
         &self,
         run: Range<usize>,
-        local_of: &mut [u32],
+        numbers: &mut FirstUse,
         face_order: &mut impl FnMut(&Mesh, Option<&[u32]>) -> FaceOrder,
         mut emit: impl FnMut(u32, u8),
     ) {
@@ -121,7 +120,7 @@ impl MeshEntry {
             mesh,
             record_of,
             starts,
-        } = self.run_mesh(run.clone(), local_of);
+        } = self.run_mesh(run.clone(), numbers);
         let order = face_order(&mesh, starts.as_deref());
 
         // A polygon goes where the first of its triangles went.
@@ -143,10 +142,7 @@ impl MeshEntry {
     }
 
     /// A run as a mesh of its own, its vertices numbered by first use.
-    ///
-    /// `local_of` is all [`UNNUMBERED`], before and after.
-    fn run_mesh(&self, run: Range<usize>, local_of: &mut [u32]) -> RunMesh {
-        let mut global_of = Vec::new();
+    fn run_mesh(&self, run: Range<usize>, numbers: &mut FirstUse) -> RunMesh {
         let mut faces = Vec::new();
         let mut record_of = Vec::new();
         let mut starts = self.polygons.as_ref().map(|_| Vec::new());
@@ -157,27 +153,16 @@ impl MeshEntry {
             }
             for face in faces_of_record {
                 record_of.push(index32(record));
-                faces.push(self.mesh.faces()[face].map(|vertex| {
-                    let local = &mut local_of[vertex as usize];
-                    if *local == UNNUMBERED {
-                        *local = index32(global_of.len());
-                        global_of.push(vertex);
-                    }
-                    *local
-                }));
+                faces.push(self.mesh.faces()[face].map(|vertex| numbers.number(vertex)));
             }
         }
         if let Some(starts) = &mut starts {
             starts.push(index32(faces.len()));
         }
 
-        // Leave the numbering as it came, at the cost of this run's vertices alone.
-        for &vertex in &global_of {
-            local_of[vertex as usize] = UNNUMBERED;
-        }
-
+        let vertex_count = numbers.finish().len();
         RunMesh {
-            mesh: Mesh::connectivity_only(global_of.len(), faces).expect("indices are local"),
+            mesh: Mesh::connectivity_only(vertex_count, faces).expect("indices are local"),
             record_of,
             starts,
         }
@@ -192,6 +177,20 @@ impl MeshEntry {
         (0_u32..)
             .zip(order.new_to_old())
             .all(|(new, &old)| run_of(new) == run_of(old))
+    }
+
+    /// The faces in the order of their records.
+    ///
+    /// # Panics
+    /// If the order is of another number of records.
+    pub(crate) fn ordered_faces(&self, order: &FaceOrder) -> Vec<[u32; 3]> {
+        let Some(starts) = &self.polygons else {
+            return order.apply(self.mesh.faces());
+        };
+        let records = order.new_to_old().iter().map(|&old| old as usize);
+        let ranges = records.map(|old| starts[old] as usize..starts[old + 1] as usize);
+        let faces = self.mesh.faces();
+        ranges.flat_map(|range| &faces[range]).copied().collect()
     }
 
     /// Moves the face records of this entry; the file it came from is not changed.
@@ -241,9 +240,6 @@ struct RunMesh {
     /// Where the faces of each polygon start, and the end of the last; `None` without polygons.
     starts: Option<Vec<u32>>,
 }
-
-/// What a vertex has that no face of the run has named yet.
-const UNNUMBERED: u32 = u32::MAX;
 
 #[cfg(test)]
 mod tests {

@@ -4,11 +4,16 @@
 use std::ops::Range;
 
 use super::options::{Greedy, Options};
+use super::shared_progress::SharedProgress;
 use crate::cache::{self, CacheModel};
 use crate::faces::Faces;
 use crate::order::{Effort, KCacheReorder, Mode, Optimizer, Target};
 use crate::permutation::FaceOrder;
 use crate::progress::{Budget, Progress};
+
+/// Most faces of which the result of a search is checked. One greedy pass takes little longer than
+/// counting, and is always checked.
+pub(super) const MOST_CHECKED: usize = 1 << 17;
 
 /// A way to order faces, and to tell whether that is worth it.
 #[derive(Debug, Clone)]
@@ -40,37 +45,23 @@ impl Algorithm {
         self.optimizer.target
     }
 
-    /// Whether to run exactly once, without the improvement rounds: the faithful mode does, as the
-    /// paper does, and a search that was given its steps or its time.
-    pub(super) fn runs_once(&self, progress: &dyn Progress) -> bool {
+    /// Whether an order that misses more is taken too.
+    pub(super) fn allows_worse(&self) -> bool {
+        self.allows_worse
+    }
+
+    /// Whether an order of so many faces is checked, that is, its result ordered once more.
+    ///
+    /// The faithful mode is not, as the paper does not, nor is a search that was given its steps or
+    /// its time, nor one of a large mesh.
+    pub(super) fn is_checked(&self, faces: usize, progress: &SharedProgress<'_>) -> bool {
         let is_faithful = self
             .greedy
             .is_some_and(|greedy| greedy.mode == Mode::Faithful);
-        let has_steps = self.optimizer.budget != Budget::Unlimited && self.optimizer.is_search();
-        is_faithful || has_steps || progress.time_spent().is_some() || self.allows_worse
-    }
-
-    /// Why an order with `after` misses for `before` is not taken; `None` if it is.
-    pub(super) fn refusal(&self, before: u64, after: u64) -> Option<&'static str> {
-        match (after < before, self.is_gain(before, after)) {
-            _ if self.allows_worse => None,
-            (_, true) => None,
-            (true, false) => Some("the order found misses less by too little to be an improvement"),
-            (false, false) => Some("the order found does not miss less"),
-        }
-    }
-
-    /// Whether an order with `after` misses for `before` is worth taking.
-    ///
-    /// Run on its own output, a randomised search oscillates slightly. Changes within that noise are
-    /// not improvements.
-    fn is_gain(&self, before: u64, after: u64) -> bool {
-        let thousandths = match (self.optimizer.effort, self.optimizer.target) {
-            (Effort::Fast, Target::Cache(_)) => 0,
-            (Effort::Fast, _) => 2,
-            _ => 5,
-        };
-        after < before - before * thousandths / 1000
+        let is_search = self.optimizer.is_search();
+        let has_steps = self.optimizer.budget != Budget::Unlimited && is_search;
+        let is_large = is_search && faces > MOST_CHECKED;
+        !(is_faithful || has_steps || progress.is_timed() || self.allows_worse || is_large)
     }
 
     /// The algorithm for faces `range` of the `total` faces of a document: its share of the budget,
@@ -132,42 +123,30 @@ impl Algorithm {
 mod tests {
     use super::*;
 
-    fn algorithm(target: &str, effort: Effort) -> Algorithm {
-        Algorithm::new(&Options {
-            target: target.parse().unwrap(),
-            effort,
-            ..Options::default()
-        })
-    }
-
     #[test]
-    fn what_oscillates_is_no_gain() {
-        let fast = algorithm("fifo:12", Effort::Fast);
-        assert!(fast.is_gain(1000, 999) && !fast.is_gain(1000, 1000));
-        let best = algorithm("universal", Effort::Best);
-        assert!(best.is_gain(10_000, 9_949) && !best.is_gain(10_000, 9_950));
-        assert!(best.is_gain(90, 89), "small meshes are exact");
-        assert_eq!(best.refusal(90, 89), None);
-        let [little, nothing] = [9_960, 10_000].map(|after| best.refusal(10_000, after));
-        assert!(little.is_some() && nothing.is_some() && little != nothing);
-    }
-
-    #[test]
-    fn a_budget_and_the_faithful_mode_run_once() {
+    fn a_budget_the_faithful_mode_and_large_searches_are_not_checked() {
+        let is_checked = |options: &Options, faces| {
+            Algorithm::new(options).is_checked(faces, &SharedProgress::new(&(), faces))
+        };
         let mut options = Options::default();
-        assert!(!Algorithm::new(&options).runs_once(&()));
+        assert!(is_checked(&options, MOST_CHECKED) && !is_checked(&options, MOST_CHECKED + 1));
         options.budget = Budget::Steps(100);
-        assert!(Algorithm::new(&options).runs_once(&()));
+        assert!(!is_checked(&options, 100));
         let share = Algorithm::new(&options).for_share(50..75, 100, true);
         assert_eq!(share.optimizer.budget, Budget::Steps(25));
-        // A greedy takes no steps: a budget changes nothing.
+        // A greedy takes no steps, and one pass no time: a budget and the size change nothing.
         options.target = CacheModel::fifo(12).into();
-        assert!(!Algorithm::new(&options).runs_once(&()));
+        assert!(is_checked(&options, 10 * MOST_CHECKED));
         options = Options {
             greedy: Some(Greedy::of_mode(Mode::Faithful)),
             target: CacheModel::fifo(12).into(),
             ..Options::default()
         };
-        assert!(Algorithm::new(&options).runs_once(&()));
+        assert!(!is_checked(&options, 100));
+        options = Options {
+            allow_worse: true,
+            ..Options::default()
+        };
+        assert!(!is_checked(&options, 100));
     }
 }

@@ -2,6 +2,8 @@
 
 use crate::cache::{self, CacheModel, ratio};
 use crate::faces::Faces;
+use crate::first_use::Compact;
+use crate::order::Target;
 
 /// Bytes of a vertex record that overfetch is counted for: position, normal, texture coordinates.
 pub(super) const VERTEX_SIZE: usize = 32;
@@ -36,19 +38,36 @@ impl Counts {
     /// Counts one mesh.
     ///
     /// # Complexity
-    /// One [`cache::misses`] a model.
+    /// One [`cache::misses`] a model, and at most O(faces) for the vertices.
     #[must_use]
     pub fn of<'a>(faces: impl Into<Faces<'a>>, models: &[CacheModel]) -> Self {
         let faces = faces.into();
+        // What a few faces on a large vertex buffer take is not what the buffer takes.
+        let compact = Compact::where_sparse(faces);
         let misses = models.iter();
-        let misses = misses.map(|&model| (model, cache::misses(faces, model)));
-        Self {
+        let misses = misses.map(|&model| (model, cache::misses(compact.faces(), model)));
+        let mut counts = Self {
             vertices: faces.vertex_count(),
-            used_vertices: cache::used_vertices(faces),
+            used_vertices: cache::used_vertices(compact.faces()),
             faces: faces.len(),
             misses: misses.collect(),
-            overfetch: cache::overfetch(faces, VERTEX_SIZE),
-        }
+            overfetch: 0.0,
+        };
+        counts.count_fetched(faces);
+        counts
+    }
+
+    /// Counts what is fetched for these faces, their vertices renumbered and the rest as it was.
+    pub(super) fn count_fetched(&mut self, faces: Faces<'_>) {
+        let stored = self.used_vertices * VERTEX_SIZE;
+        self.overfetch = ratio(cache::fetched(faces, VERTEX_SIZE), stored);
+    }
+
+    /// The misses of those of the counted models that `target` stands for, added up.
+    pub(super) fn misses_of(&self, target: Target) -> u64 {
+        let models = target.models();
+        let of_target = self.misses.iter().filter(|(m, _)| models.contains(m));
+        of_target.map(|(_, misses)| misses).sum()
     }
 
     /// Misses per face under each model.

@@ -1,10 +1,13 @@
 //! Better orders for the meshes of a document, found before the document is changed.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::algorithm::Algorithm;
+use super::better::better_vertex_order;
+use super::counts::Counts;
 use super::options::Options;
-use super::rounds::{Round, better_vertex_order, improve_until_settled};
+use super::shared_progress::SharedProgress;
 use crate::cache::CacheModel;
 use crate::faces::Faces;
 use crate::files::{Document, Edit, FileError, MeshEntry};
@@ -16,8 +19,10 @@ use crate::progress::Progress;
 /// What is to be done to each mesh and each vertex group.
 pub(super) struct Improvement {
     pub(super) faces: Vec<FaceChange>,
-    /// By vertex group, for those that may move.
+    /// By vertex group, for those that move.
     pub(super) vertices: BTreeMap<usize, VertexChange>,
+    /// The counts of each mesh afterwards.
+    pub(super) after: Vec<Counts>,
     /// Whether the caller stopped it.
     pub(super) is_stopped: bool,
 }
@@ -32,148 +37,186 @@ pub(super) struct VertexChange {
 /// What is to be done to the faces of a mesh.
 pub(super) struct FaceChange {
     pub(super) order: FaceOrder,
-    /// Why an order was rejected, if none was accepted before.
+    /// Why an order that was found is not taken.
     pub(super) reason: Option<&'static str>,
     /// Pushes of the schedule that came with the order, for a controllable cache.
     pub(super) scheduled: Option<u64>,
 }
 
-/// Orders faces and vertices until a round brings no improvement.
+/// Orders faces and vertices. `before` has the counts of each mesh under `models`.
 pub(super) fn improve(
     entries: &[MeshEntry],
     options: &Options,
+    models: &[CacheModel],
+    before: &[Counts],
     progress: &dyn Progress,
 ) -> Improvement {
     let algorithm = Algorithm::new(options);
-    let mut entries = entries.to_vec();
-    let mut faces: Vec<FaceChange> = entries.iter().map(FaceChange::none).collect();
-    let mut vertices = vertex_groups(&entries);
-
-    let is_timed = progress.time_spent().is_some();
-    let runs_once = algorithm.runs_once(progress);
     let face_count = entries.iter().map(|entry| entry.mesh.face_count()).sum();
-    let mut first_faces = Vec::with_capacity(entries.len());
+    let shared = SharedProgress::new(progress, face_count);
+
+    // Faces: each mesh has its share of a budget, by where its faces stand among all.
     let mut first_face = 0;
-    for entry in &entries {
-        first_faces.push(first_face);
+    let jobs = entries.iter().zip(before).map(|(entry, before)| {
+        let first = first_face;
         first_face += entry.mesh.face_count();
-    }
-    let is_stopped = improve_until_settled(progress, face_count, runs_once, |round| {
-        let work = |((entry, change), &first): ((&mut MeshEntry, &mut FaceChange), &usize)| {
-            change.improve(entry, &algorithm, first, face_count, round)
-        };
-        let each = entries.iter_mut().zip(&mut faces).zip(&first_faces);
-        let moved: Vec<bool> = match is_timed {
-            // One after the other: each has its share of the time.
-            true => each.map(work).collect(),
-            false => parallel::map(each.collect(), work),
-        };
-        let mut is_changed = moved.contains(&true);
-        if !options.keep_vertex_order {
-            for change in vertices.values_mut() {
-                is_changed |= change.improve(&mut entries, &moved);
+        (entry, before, first)
+    });
+    let job = |(entry, before, first)| {
+        MeshJob {
+            entry,
+            before,
+            first,
+            face_count,
+            algorithm: &algorithm,
+            models,
+        }
+        .run(&shared)
+    };
+    let improved: Vec<(FaceChange, Improved<'_>)> = match shared.is_timed() {
+        // One after the other: each has its share of the time.
+        true => jobs.map(job).collect(),
+        false => parallel::map(jobs.collect(), job),
+    };
+    let (faces, mut meshes): (Vec<_>, Vec<_>) = improved.into_iter().unzip();
+
+    // Vertices.
+    let mut vertices = BTreeMap::new();
+    if !options.keep_vertex_order {
+        for (group, members) in movable_groups(entries) {
+            if let Some(order) = better_order_of_group(&members, &meshes, &faces) {
+                let old_to_new = order.permutation().old_to_new();
+                for &i in &members {
+                    meshes[i].renumber(&old_to_new);
+                }
+                vertices.insert(group, VertexChange { members, order });
             }
         }
-        is_changed
-    });
+    }
+
     Improvement {
         faces,
         vertices,
-        is_stopped,
+        after: meshes.into_iter().map(|mesh| mesh.counts).collect(),
+        is_stopped: shared.finish(),
     }
 }
 
-/// The groups whose vertices may move, each with an order that moves nothing.
-fn vertex_groups(entries: &[MeshEntry]) -> BTreeMap<usize, VertexChange> {
-    let mut groups: BTreeMap<usize, VertexChange> = BTreeMap::new();
+/// The members of each vertex group whose vertices may move.
+fn movable_groups(entries: &[MeshEntry]) -> BTreeMap<usize, Vec<usize>> {
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (i, entry) in entries.iter().enumerate() {
-        let group = groups.entry(entry.vertex_group);
-        let group = group.or_insert_with(|| VertexChange {
-            members: Vec::new(),
-            order: VertexOrder::identity(entry.mesh.vertex_count()),
-        });
-        group.members.push(i);
+        groups.entry(entry.vertex_group).or_default().push(i);
     }
-    let movable = |group: &VertexChange| group.members.iter().all(|&i| entries[i].vertices_movable);
-    groups.retain(|_, group| movable(group));
+    groups.retain(|_, members| members.iter().all(|&i| entries[i].vertices_movable));
     groups
 }
 
-impl FaceChange {
-    fn none(entry: &MeshEntry) -> Self {
-        Self {
-            order: FaceOrder::identity(entry.record_count()),
-            reason: None,
-            scheduled: None,
+/// The vertices of a group in the order of their first use by all its members, if that is worth it.
+fn better_order_of_group(
+    members: &[usize],
+    meshes: &[Improved<'_>],
+    changes: &[FaceChange],
+) -> Option<VertexOrder> {
+    let vertex_count = meshes[members[0]].counts.vertices;
+    let all: Cow<'_, [[u32; 3]]> = match members {
+        [only] => meshes[*only].faces.as_ref().into(),
+        _ => {
+            let all = members.iter().flat_map(|&i| meshes[i].faces.iter());
+            all.copied().collect()
         }
-    }
+    };
+    let faces_moved = members.iter().any(|&i| !changes[i].order.is_identity());
+    better_vertex_order(Faces::of_checked(&all, vertex_count), faces_moved)
+}
 
-    /// Orders the faces of `entry`, which are those from `first` on of the `face_count` faces of all
-    /// meshes, if that misses less; whether it did.
-    fn improve(
-        &mut self,
-        entry: &mut MeshEntry,
-        algorithm: &Algorithm,
-        first: usize,
-        face_count: usize,
-        round: &Round<'_>,
-    ) -> bool {
+/// The faces of one mesh, to be ordered.
+struct MeshJob<'a> {
+    entry: &'a MeshEntry,
+    before: &'a Counts,
+    /// How many faces the meshes before it have, and all together.
+    first: usize,
+    face_count: usize,
+    algorithm: &'a Algorithm,
+    models: &'a [CacheModel],
+}
+
+/// A mesh in its better order.
+struct Improved<'a> {
+    faces: Cow<'a, [[u32; 3]]>,
+    counts: Counts,
+}
+
+impl<'a> MeshJob<'a> {
+    /// Orders the faces, if that misses less.
+    fn run(self, progress: &SharedProgress<'_>) -> (FaceChange, Improved<'a>) {
+        let entry = self.entry;
+        let is_whole = entry.polygons.is_none() && entry.runs.len() <= 1;
+
         // Find an order, run by run.
         let turnable = entry.corners_turnable && entry.polygons.is_none();
-        let (mut next, mut scheduled) = (first, 0);
+        let (mut next, mut scheduled, mut reason) = (self.first, 0, None);
         let order = entry.record_order(|mesh, polygons| {
-            let part = round.part(mesh.face_count());
             let range = next..next + mesh.face_count();
             next = range.end;
-            let algorithm = algorithm.for_share(range, face_count, turnable);
-            let (order, pushes) = algorithm.order(mesh.as_faces(), polygons, &part);
-            part.finish();
-            scheduled += pushes;
-            order
+            let algorithm = self.algorithm.for_share(range, self.face_count, turnable);
+            let run = algorithm.run_order(mesh.as_faces(), polygons, is_whole, progress);
+            scheduled += run.scheduled;
+            reason = reason.or(run.reason);
+            run.order
         });
         if order.is_identity() {
-            return false;
+            return self.unchanged(reason);
         }
 
-        // Take it if it is better.
-        let target = algorithm.target();
-        let before = target.misses(&entry.mesh);
-        let mut ordered = entry.clone();
-        ordered.apply_faces(&order);
-        let after = target.misses(&ordered.mesh);
-        if let Some(reason) = algorithm.refusal(before, after) {
-            self.reason = self.order.is_identity().then_some(reason);
-            return false;
+        // Take it if it is better for the whole mesh.
+        let faces = entry.ordered_faces(&order);
+        let counts = Counts::of(
+            Faces::of_checked(&faces, entry.mesh.vertex_count()),
+            self.models,
+        );
+        let target = self.algorithm.target();
+        let after = counts.misses_of(target);
+        let refusal = self.algorithm.refusal(self.before.misses_of(target), after);
+        if refusal.is_some() {
+            return self.unchanged(refusal);
         }
-        *entry = ordered;
-        self.order = self.order.then(&order);
-        self.reason = None;
 
         // A schedule that comes with an order is one of a whole mesh; of runs and polygons it is the
         // best for the order that was made of them.
-        let is_whole = entry.polygons.is_none() && entry.runs.len() <= 1;
         let is_controllable = matches!(target, Target::Cache(CacheModel::Controllable { .. }));
-        self.scheduled = is_controllable.then_some(if is_whole { scheduled } else { after });
-        true
+        let change = FaceChange {
+            order,
+            reason: None,
+            scheduled: is_controllable.then_some(if is_whole { scheduled } else { after }),
+        };
+        let faces = Cow::Owned(faces);
+        (change, Improved { faces, counts })
+    }
+
+    /// The mesh as it was, and why.
+    fn unchanged(self, reason: Option<&'static str>) -> (FaceChange, Improved<'a>) {
+        let change = FaceChange {
+            order: FaceOrder::identity(self.entry.record_count()),
+            reason,
+            scheduled: None,
+        };
+        let improved = Improved {
+            faces: Cow::Borrowed(self.entry.mesh.faces()),
+            counts: self.before.clone(),
+        };
+        (change, improved)
     }
 }
 
-impl VertexChange {
-    /// Puts the vertices in the order of their first use, if faces moved or if that fetches less;
-    /// whether any moved.
-    fn improve(&mut self, entries: &mut [MeshEntry], moved: &[bool]) -> bool {
-        let all = self.members.iter().flat_map(|&i| entries[i].mesh.faces());
-        let faces: Vec<[u32; 3]> = all.copied().collect();
-        let faces = Faces::of_checked(&faces, self.order.len());
-        let faces_moved = self.members.iter().any(|&i| moved[i]);
-        let Some(order) = better_vertex_order(faces, faces_moved) else {
-            return false;
-        };
-        for &i in &self.members {
-            entries[i].apply_vertices(&order);
+impl Improved<'_> {
+    /// Gives the vertices their new numbers, on which only what is fetched depends.
+    fn renumber(&mut self, old_to_new: &[u32]) {
+        for face in self.faces.to_mut() {
+            *face = face.map(|vertex| old_to_new[vertex as usize]);
         }
-        self.order = self.order.then(&order);
-        true
+        let faces = Faces::of_checked(&self.faces, old_to_new.len());
+        self.counts.count_fetched(faces);
     }
 }
 
@@ -186,9 +229,7 @@ impl Improvement {
             }
         }
         for VertexChange { members, order } in self.vertices.values() {
-            if !order.is_identity() {
-                document.edit(Edit::order(members[0], None, order))?;
-            }
+            document.edit(Edit::order(members[0], None, order))?;
         }
         Ok(())
     }

@@ -1,8 +1,9 @@
 //! The main job on raw indices.
 
 use super::algorithm::Algorithm;
+use super::better::better_vertex_order;
 use super::options::Options;
-use super::rounds::{better_vertex_order, improve_until_settled};
+use super::shared_progress::SharedProgress;
 use crate::error::MeshError;
 use crate::faces::Faces;
 use crate::order::{Effort, Target};
@@ -18,14 +19,14 @@ pub struct IndexOptions {
     pub effort: Effort,
     /// Seed of the search; the same seed gives the same indices.
     pub seed: u64,
-    /// How much a search may do. A search with a budget runs once.
+    /// How much a search may do. What it finds with a budget is not checked.
     pub budget: Budget,
     /// Forbids turning corners (provoking vertex, data on edges).
     pub keep_corners: bool,
     /// Renumbers the vertices by first use. The caller then has to move every vertex buffer by
     /// [`Orders::vertices`].
     pub renumber_vertices: bool,
-    /// Takes an order even if it misses more; runs once, without rounds.
+    /// Takes an order even if it misses more, unchecked.
     pub allow_worse: bool,
 }
 
@@ -78,18 +79,18 @@ mod sealed {
 
 /// Puts flat indices, three a face, in an order that misses less, in place.
 ///
-/// Positions are not needed. An order that does not miss less (at effort `best` and `max` by .5 %, for
-/// several caches at once by .2 %, which is within the noise of a search) is not taken, unless that is
+/// Positions are not needed. An order that does not miss less by .5 % is not taken, unless that is
 /// allowed: the indices then stay as they are, and the orders returned change nothing. Run on its own
-/// output it changes nothing, except with a budget or if worse orders are allowed.
+/// output it changes nothing, except with a budget or if worse orders are allowed: an order of up to
+/// 131,072 faces is checked by ordering its result once more.
 ///
 /// # Errors
 /// [`MeshError`] if an index is not below `vertex_count`, or the last face is not whole. The
 /// indices are unchanged then.
 ///
 /// # Complexity
-/// That of [`Optimizer::face_order`](crate::order::Optimizer::face_order), two to four times: it
-/// orders until that gains nothing.
+/// That of [`Optimizer::face_order`](crate::order::Optimizer::face_order), twice where the order is
+/// checked.
 ///
 /// ```
 /// use meshweft::operations::{IndexOptions, optimize_indices};
@@ -163,44 +164,37 @@ impl IndexOptions {
         progress: &dyn Progress,
     ) -> Orders {
         let algorithm = Algorithm::new(&self.options());
-        let face_count = faces.len();
-        let mut orders = Orders {
-            faces: FaceOrder::identity(face_count),
-            vertices: self
-                .renumber_vertices
-                .then(|| VertexOrder::identity(vertex_count)),
+        let shared = SharedProgress::new(progress, faces.len());
+        let misses = |faces: &[[u32; 3]]| {
+            let faces = Faces::of_checked(faces, vertex_count);
+            algorithm.target().misses(faces)
         };
-        let target = algorithm.target();
-        let runs_once = algorithm.runs_once(progress);
-        improve_until_settled(progress, face_count, runs_once, |round| {
-            // Faces.
-            let part = round.part(face_count);
-            let now = Faces::of_checked(faces, vertex_count);
-            let (order, _) = algorithm.order(now, None, &part);
-            part.finish();
-            let ordered = order.apply(faces);
-            let is_taken = !order.is_identity() && {
-                let after = target.misses(Faces::of_checked(&ordered, vertex_count));
-                algorithm.refusal(target.misses(now), after).is_none()
-            };
-            if is_taken {
-                *faces = ordered;
-                orders.faces = orders.faces.then(&order);
-            }
 
-            // Vertices.
-            let mut are_renumbered = false;
-            if let Some(total) = &mut orders.vertices {
-                let now = Faces::of_checked(faces, vertex_count);
-                if let Some(order) = better_vertex_order(now, is_taken) {
-                    order.renumber_in_place(faces);
-                    *total = total.then(&order);
-                    are_renumbered = true;
-                }
+        // Faces.
+        let now = Faces::of_checked(faces, vertex_count);
+        let mut order = algorithm.run_order(now, None, true, &shared).order;
+        if !order.is_identity() {
+            let ordered = order.apply(faces);
+            match algorithm.refusal(misses(faces), misses(&ordered)) {
+                None => *faces = ordered,
+                Some(_) => order = FaceOrder::identity(faces.len()),
             }
-            is_taken || are_renumbered
+        }
+
+        // Vertices.
+        let vertices = self.renumber_vertices.then(|| {
+            let now = Faces::of_checked(faces, vertex_count);
+            let better = better_vertex_order(now, !order.is_identity());
+            if let Some(order) = &better {
+                order.renumber_in_place(faces);
+            }
+            better.unwrap_or_else(|| VertexOrder::identity(vertex_count))
         });
-        orders
+        shared.finish();
+        Orders {
+            faces: order,
+            vertices,
+        }
     }
 }
 

@@ -6,10 +6,11 @@
 //! whether two documents hold the same triangles; their reports are values that know their JSON.
 //! [`Method`] has every order by name.
 //!
-//! This is the only place that joins files and algorithms. Read `options`, then `rounds` for why a run
+//! This is the only place that joins files and algorithms. Read `options`, then `better` for why a run
 //! on its own output changes nothing, then `improve`.
 
 mod algorithm;
+mod better;
 #[cfg(feature = "files")]
 mod compare;
 mod counts;
@@ -26,7 +27,7 @@ mod optimize;
 #[cfg(feature = "files")]
 mod optimize_json;
 mod options;
-mod rounds;
+mod shared_progress;
 
 #[cfg(feature = "files")]
 pub use compare::{CompareReport, ComparedFile, compare};

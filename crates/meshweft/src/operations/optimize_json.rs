@@ -49,9 +49,7 @@ impl OptimizeReport {
 
     fn mesh_json(&self, number: usize) -> Value {
         let mesh: &OptimizedMesh = &self.meshes[number];
-        let vertices_moved = self
-            .vertex_order(number)
-            .is_some_and(|order| !order.is_identity());
+        let vertices_moved = self.vertex_order(number).is_some();
         let mut object = json::change(&mesh.change.before, &mesh.change.after);
         object.shift_insert(0, "name".into(), json!(mesh.name));
         object.insert("changed".into(), json!(mesh.is_changed()));
@@ -72,7 +70,7 @@ impl OptimizeReport {
         let meshes = self.meshes.iter().enumerate().map(|(i, mesh)| {
             let order = &mesh.faces;
             let rotations: Vec<u8> = (0..order.len()).map(|i| order.rotation(i)).collect();
-            let vertices = self.vertex_order(i).filter(|order| !order.is_identity());
+            let vertices = self.vertex_order(i);
             json!({
                 "name": mesh.name,
                 "face_new_to_old": order.new_to_old(),

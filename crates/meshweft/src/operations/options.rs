@@ -21,14 +21,13 @@ pub struct Options {
     pub greedy: Option<Greedy>,
     /// Seed of the search; the same seed gives the same bytes.
     pub seed: u64,
-    /// How much a search may do for all meshes together. A search with a budget runs once, without
-    /// rounds.
+    /// How much a search may do for all meshes together. What it finds with a budget is not checked.
     pub budget: Budget,
     /// Forbids turning corners (provoking vertex, data on edges), wherever the file allows it.
     pub keep_corners: bool,
     /// Leaves the vertices where they are.
     pub keep_vertex_order: bool,
-    /// Takes an order even if it misses more; runs once, without rounds.
+    /// Takes an order even if it misses more, unchecked.
     pub allow_worse: bool,
 }
 

@@ -7,7 +7,7 @@ use crate::sources::Sources;
 
 /// The rooms from the ground up, with the groups of rooms that each may name beside itself: only
 /// such as stand above it in this list, so that every arrow points one way.
-const ROOMS: [(&str, &[&[&str]]); 17] = [
+const ROOMS: [(&str, &[&[&str]]); 18] = [
     ("error", &[]),
     ("index", &[&["error"]]),
     ("limits", &[BOUNDS]),
@@ -16,6 +16,7 @@ const ROOMS: [(&str, &[&[&str]]); 17] = [
     ("progress", &[]),
     ("geometry", &[GROUND]),
     ("faces", &[BOUNDS]),
+    ("first_use", &[BOUNDS, &["faces"]]),
     ("permutation", &[BOUNDS, &["random", "faces"]]),
     ("attribute", &[]),
     ("mesh", &[GROUND, &["faces", "permutation"]]),
@@ -35,7 +36,14 @@ const ROOMS: [(&str, &[&[&str]]); 17] = [
 
 const BOUNDS: &[&str] = &["error", "index"];
 const GROUND: &[&str] = &["error", "index", "limits", "parallel", "random", "progress"];
-const VALUES: &[&str] = &["geometry", "faces", "permutation", "attribute", "mesh"];
+const VALUES: &[&str] = &[
+    "geometry",
+    "faces",
+    "first_use",
+    "permutation",
+    "attribute",
+    "mesh",
+];
 const ALGORITHMS: &[&str] = &["topology", "partition", "cache"];
 
 /// What the program may name of the library: these rooms whole …

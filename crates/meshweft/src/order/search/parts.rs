@@ -9,6 +9,7 @@ use super::settings::Settings;
 use super::slabs;
 use super::state::{CacheLimits, State};
 use crate::faces::Faces;
+use crate::first_use::FirstUse;
 use crate::index::index32;
 use crate::order::polygons::polygon_of_each_face;
 use crate::order::target::{Effort, Target};
@@ -59,15 +60,15 @@ impl Search<'_> {
             drawn: AtomicUsize::new(0),
             is_stopped: AtomicBool::new(false),
         };
-        let mut numbers = vec![u32::MAX; faces.vertex_count()];
+        let mut numbers = FirstUse::new(faces.vertex_count(), 3 * face_count);
         let mut start = 0;
         let parts = ends.iter().map(|&end| {
             let members = &order.new_to_old()[start..end];
             let corners = members.iter().map(|&face| faces.as_slice()[face as usize]);
-            let (faces, vertex_count) = renumbered(corners, &mut numbers);
+            let corners = corners.map(|face| face.map(|vertex| numbers.number(vertex)));
             let part = Part {
-                faces,
-                vertex_count,
+                faces: corners.collect(),
+                vertex_count: numbers.finish().len(),
                 polygons: polygons
                     .as_ref()
                     .map_or(Vec::new(), |polygons| polygons_of(members, polygons)),
@@ -200,37 +201,11 @@ impl Part<'_> {
     }
 }
 
-/// The faces with their vertices numbered by first use, and how many vertices there are.
-///
-/// `numbers` has an entry for each vertex of the mesh, `u32::MAX` before and after.
-fn renumbered(
-    faces: impl Iterator<Item = [u32; 3]>,
-    numbers: &mut [u32],
-) -> (Vec<[u32; 3]>, usize) {
-    let mut count = 0;
-    let mut used = Vec::new();
-    let mut number = |vertex: u32| {
-        let number = &mut numbers[vertex as usize];
-        if *number == u32::MAX {
-            *number = count;
-            count += 1;
-            used.push(vertex);
-        }
-        *number
-    };
-    let faces = faces.map(|face| face.map(&mut number)).collect();
-
-    // Only what was used is reset: the next part finds the array clear.
-    for vertex in used {
-        numbers[vertex as usize] = u32::MAX;
-    }
-    (faces, count as usize)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::cache::{self, CacheModel};
+    use crate::first_use::Compact;
 
     /// A square grid of `side` × `side` squares, row by row.
     fn grid(side: u32) -> Vec<[u32; 3]> {
@@ -299,10 +274,9 @@ mod tests {
         let mut start = 0;
         for &end in &ends {
             assert!(end - start >= 4000);
-            let (_, vertices) = renumbered(
-                order.apply(&shuffled)[start..end].iter().copied(),
-                &mut vec![u32::MAX; 121 * 121],
-            );
+            let part = &order.apply(&shuffled)[start..end];
+            let part = Compact::new(Faces::new(part, 121 * 121).unwrap());
+            let vertices = part.faces().vertex_count();
             // A compact piece of n faces has about n / 2 vertices and a short border.
             assert!(
                 vertices * 2 < (end - start) * 11 / 10,
