@@ -68,7 +68,10 @@ fn last_first_within_runs(entry: &MeshEntry) -> FaceOrder {
     let count = u32::try_from(entry.record_count()).expect("records are counted in 32 bits");
     let ends = entry.runs.iter().skip(1).copied().chain([count]);
     let runs = entry.runs.iter().zip(ends);
-    let order = runs.flat_map(|(&start, end)| (start..end).rev()).collect();
+    let order = match entry.faces_movable {
+        true => runs.flat_map(|(&start, end)| (start..end).rev()).collect(),
+        false => (0..count).collect(),
+    };
     Permutation::new(order).expect("each number once").into()
 }
 

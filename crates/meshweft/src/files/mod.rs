@@ -9,7 +9,7 @@
 //! |---|---|
 //! | how a format plugs in | `content` |
 //! | what can be done to a document | [`Edit`], [`Document::create`] |
-//! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `record_file` |
+//! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `definitions`, `record_file` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
 //! | where bytes come from | `disk`, `surroundings` |
 //! | where they go, and why nothing is lost on the way | `write`, `placing`, `companions`, `links`, `locks`, `disk` |
@@ -17,6 +17,7 @@
 mod companions;
 mod content;
 mod decoded;
+mod definitions;
 mod disk;
 mod document;
 mod edit;

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::{fmt, io};
 
 use super::content::{Content, OutputFile, OutputPlace};
+use super::definitions::{Filling, Places};
 use super::entry::MeshEntry;
 use super::error::Problem;
 use super::orders::{RecordOrders, record_in};
@@ -39,35 +40,25 @@ impl<N: Notation> RecordFile<N> {
         let source = self.source.as_slice();
         let old_to_new = self.orders.old_to_new();
         let old_to_new = old_to_new.as_slice();
+        let places = self.places();
         let mut layers = Vec::new();
 
         if !records.is_empty() || !vertices.is_empty() {
-            let mut corners = Vec::new();
-            layers.push(Layer::new(&self.faces, move |slots, out| {
-                for slot in slots {
-                    let change = Change {
-                        rotation: self.orders.rotation(slot),
-                        old_to_new,
-                    };
-                    let record = &source[self.faces.span(record_in(records, slot))];
-                    if change.is_nothing() {
-                        out.extend_from_slice(record);
-                        continue;
-                    }
-                    let rewrite = Rewrite {
-                        change,
-                        corners: &mut corners,
-                        out,
-                    };
-                    self.notation.write_face(record, rewrite);
-                }
-            }));
+            layers.push(self.face_layer(places.as_ref(), old_to_new));
             let companions = self.companions.iter();
             layers.extend(companions.map(|spans| Layer::moved(spans, source, records)));
         }
 
         if !vertices.is_empty() {
-            layers.push(Layer::moved(&self.vertices, source, vertices));
+            let top = places.as_ref().map(|places| &places.top_vertices);
+            let slots = top.unwrap_or(&self.vertices);
+            layers.push(Layer::new(slots, move |slots, out| {
+                for slot in slots {
+                    out.extend_from_slice(&source[self.vertices.span(record_in(vertices, slot))]);
+                }
+            }));
+            let rows = self.notation.vertex_rows();
+            layers.extend(rows.map(|rows| Layer::moved(rows, source, vertices)));
             let mut corners = Vec::new();
             layers.push(Layer::new(&self.lines, move |slots, out| {
                 for slot in slots {
@@ -86,6 +77,74 @@ impl<N: Notation> RecordFile<N> {
             }));
         }
         splice(source, 0..source.len(), layers, sink)
+    }
+
+    /// The faces in their new order, with the definitions that go above them.
+    fn face_layer<'a>(
+        &'a self,
+        places: Option<&'a Places<'_>>,
+        old_to_new: &'a [u32],
+    ) -> Layer<'a> {
+        let source = self.source.as_slice();
+        let mut corners = Vec::new();
+        let mut write_face = move |slot, record: &[u8], out: &mut Vec<u8>| {
+            let change = Change {
+                rotation: self.orders.rotation(slot),
+                old_to_new,
+            };
+            if change.is_nothing() {
+                out.extend_from_slice(record);
+                return;
+            }
+            let rewrite = Rewrite {
+                change,
+                corners: &mut corners,
+                out,
+            };
+            self.notation.write_face(record, rewrite);
+        };
+        let span_of = |slot| self.faces.span(record_in(&self.orders.records, slot));
+
+        let Some(places) = places else {
+            return Layer::new(&self.faces, move |slots, out| {
+                slots.for_each(|slot| write_face(slot, &source[span_of(slot)], out));
+            });
+        };
+
+        let mut fillings = places.fillings();
+        let mut settled = Vec::new();
+        Layer::new(&places.slots, move |slots, out| {
+            for filling in fillings.by_ref().take(slots.len()) {
+                match filling {
+                    Filling::Line(span) => out.extend_from_slice(&source[span]),
+                    Filling::Vertex(slot) => {
+                        let record = record_in(&self.orders.vertices, slot);
+                        out.extend_from_slice(&source[self.vertices.span(record)]);
+                    }
+                    Filling::Face { slot, run: None } => {
+                        write_face(slot, &source[span_of(slot)], out);
+                    }
+                    Filling::Face {
+                        slot,
+                        run: Some(run),
+                    } => {
+                        let span = span_of(slot);
+                        let above = places.above(run, span.start);
+                        settled.clear();
+                        self.notation
+                            .write_settled(&source[span], above, &mut settled);
+                        write_face(slot, &settled, out);
+                    }
+                }
+            }
+        })
+    }
+
+    /// Where faces and definitions go, if faces of a run with definitions move.
+    fn places(&self) -> Option<Places<'_>> {
+        let runs = &self.entries.first()?.runs;
+        let definitions = self.notation.definitions()?;
+        definitions.places(&self.faces, &self.vertices, runs, &self.orders)
     }
 }
 

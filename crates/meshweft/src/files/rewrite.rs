@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::definitions::Definitions;
 use super::entry::MeshEntry;
 use super::error::{Problem, no_attribute};
 use super::orders::{RecordOrders, record_in};
@@ -161,6 +162,22 @@ pub(super) fn fan(count: usize, rotation: usize) -> impl Iterator<Item = usize> 
 pub(super) trait Notation: Send + Sync {
     /// Appends a face record with its corners changed.
     fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>);
+
+    /// What hangs on the vertices one by one, in a file whose vertices move, and goes where they go.
+    fn vertex_rows(&self) -> Option<&Spans> {
+        None
+    }
+
+    /// The lines between the faces of a run that faces name.
+    fn definitions(&self) -> Option<&Definitions> {
+        None
+    }
+
+    /// Appends a face record with numbers that name the same wherever it stands; `above` it are so many
+    /// definitions of each kind.
+    fn write_settled(&self, record: &[u8], _above: [usize; 3], out: &mut Vec<u8>) {
+        out.extend_from_slice(record);
+    }
 
     /// Appends a line that names vertices and stays where it is.
     fn write_line(&self, line: &[u8], rewrite: Rewrite<'_>) {

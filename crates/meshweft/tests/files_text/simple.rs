@@ -21,6 +21,10 @@ pub(crate) struct Pieces {
     pub(crate) rest: Vec<u8>,
     /// OBJ: what the `l` and `p` lines name.
     pub(crate) lines: Vec<usize>,
+    /// OBJ: the `vt` and `vn` lines.
+    pub(crate) definitions: Vec<Vec<u8>>,
+    /// OBJ: how much of what each face names stands below it.
+    pub(crate) below: Vec<usize>,
 }
 
 const MARKS: [u8; 2] = [1, 2];
@@ -89,25 +93,38 @@ fn number(word: &[u8]) -> usize {
     std::str::from_utf8(word).unwrap().parse().unwrap()
 }
 
+/// All records have one mark, as `vt` and `vn` lines go where faces were.
 fn read_obj(bytes: &[u8]) -> Pieces {
     let mut pieces = Pieces::default();
+    let mut counts = [0; 3];
     for line in bytes.split_inclusive(|&b| b == b'\n') {
         let (before, content, after) = cut(line);
-        let count = pieces.vertices.len();
         let vertex_of = |number: i64| match number > 0 {
             true => number as usize - 1,
-            false => count - number.unsigned_abs() as usize,
+            false => counts[0] - number.unsigned_abs() as usize,
         };
         let code = content.split(|&b| b == b'#').next().unwrap_or_default();
         let words = words(code);
         match words.first().copied() {
-            Some(b"v") => {
-                pieces.vertices.push(content.to_vec());
-                pieces.rest.extend([before, &MARKS[..1], after].concat());
+            Some(word @ (b"v" | b"vt" | b"vn")) => {
+                let kind = [b"v" as &[u8], b"vt", b"vn"]
+                    .iter()
+                    .position(|&w| w == word);
+                counts[kind.unwrap()] += 1;
+                match kind {
+                    Some(0) => pieces.vertices.push(content.to_vec()),
+                    _ => pieces.definitions.push(content.to_vec()),
+                }
+                pieces.rest.extend([before, &MARKS[1..], after].concat());
             }
             Some(b"f") => {
-                let face = face(content, 1, words.len() - 1, vertex_of);
+                let mut face = face(content, 1, words.len() - 1, vertex_of);
+                let mut below = face.vertices.iter().filter(|&&v| v >= counts[0]).count();
+                for glued in &mut face.glued {
+                    below += settle(glued, [counts[1], counts[2]]);
+                }
                 pieces.faces.push(face);
+                pieces.below.push(below);
                 pieces.rest.extend([before, &MARKS[1..], after].concat());
             }
             Some(b"l" | b"p") => {
@@ -121,6 +138,25 @@ fn read_obj(bytes: &[u8]) -> Pieces {
         }
     }
     pieces
+}
+
+/// Counts from the first line what counts back in `/2/3`; how much names lines that are not yet there.
+fn settle(glued: &mut Vec<u8>, counts: [usize; 2]) -> usize {
+    let text = String::from_utf8(glued.clone()).unwrap();
+    let mut below = 0;
+    let settled = text.split('/').enumerate().map(|(place, number)| {
+        let count = |place: usize| counts[place - 1] as i64;
+        match number.parse::<i64>() {
+            Ok(back @ ..0) if -back <= count(place) => (count(place) + 1 + back).to_string(),
+            Ok(number) => {
+                below += usize::from(number > count(place));
+                number.to_string()
+            }
+            Err(_) => number.to_owned(),
+        }
+    });
+    *glued = settled.collect::<Vec<_>>().join("/").into_bytes();
+    below
 }
 
 fn read_off(bytes: &[u8]) -> Pieces {

@@ -32,7 +32,7 @@ pub(crate) fn read(bytes: &[u8]) -> Pieces {
             })
             .collect(),
         rest,
-        lines: Vec::new(),
+        ..Pieces::default()
     }
 }
 

@@ -6,14 +6,24 @@
 //!   as many vertices as `v` lines, whatever seams its textures have; texture and normal numbers
 //!   stay attached to their corner. A program that makes one GPU vertex of each `1/2/3` sees a few
 //!   more misses at seams, in the same order.
-//! - A *run* is a stretch of `f` lines with nothing between but blank lines and comments. Any other
-//!   statement (`g`, `o`, `usemtl`, `s`, `v`, `l`, …) ends it, because what it says holds for the
-//!   faces after it. A face never leaves its run, so a number that counts back (`-1`) means the
-//!   same wherever the face goes; it is written as a plain number only if its vertex is renumbered.
-//!   If the caller wishes, `g` and `o` do not end a run.
+//! - A *run* is a stretch of `f` lines of one state: what the statements above them say that hold for
+//!   faces (`g`, `o`, `usemtl`, `s`, …), compared by value. A face never leaves its run. Statements
+//!   that say nothing new of faces end no run: comments, `mtllib`, a repeated `usemtl`, the `v`, `vt`
+//!   and `vn` lines between the faces. Unknown ones do. If the caller wishes, `g` and `o` do not.
+//! - Many readers look up at once what a face names, so no face goes above it: where the faces of a
+//!   run move, the `v`, `vt` and `vn` lines between them go above the first, in their order, and so
+//!   keep their numbers. There, a number that counts back (`-1`) becomes a plain one. Everywhere else
+//!   it means the same in all of the run, and is written as a plain number only if its vertex is
+//!   renumbered. What an `l` or `p` counts back, and a `v` line below an `o` or `g`, stays below
+//!   it: there the run ends.
 //!
-//! Vertices move only if every `v` line comes before the first `f`, `l` or `p`, and nothing in the
-//! file may name vertices in a way that is not known here.
+//! Vertices move only if every `v` line comes before the first `f`, `l` or `p`, or goes above it as
+//! said, and nothing in the file may name vertices in a way that is not known here.
+//!
+//! Comments may hold data in the order of the vertices. `#MRGB` (ZBrush: mask, red, green, blue, two
+//! digits each) is known, and the colors go where the vertices go. Of other comments, those of a word
+//! and numbers are counted by the word: where there is a line or a number for each vertex, or face, these
+//! stay.
 //!
 //! What can be read of it:
 //!
@@ -23,12 +33,15 @@
 //!   corner. Texture coordinates have three components where all that are named have, else two; a
 //!   second one that a `vt` line leaves out is 0.
 //!
-//! [`reader`] finds the statements and [`statement`] cuts them, [`notation`] writes corners,
-//! [`attributes`] reads values.
+//! [`reader`] finds the statements and [`statement`] cuts them, [`runs`] and [`state`] tell which faces
+//! may change places, [`comments`] keeps data in comments, [`notation`] writes corners, [`attributes`] reads values.
 
 mod attributes;
+mod comments;
 mod notation;
 mod reader;
+mod runs;
+mod state;
 mod statement;
 
 use crate::Mesh;
@@ -61,6 +74,8 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         lines,
         name,
         obstacle,
+        face_obstacle,
+        comments,
         ..
     } = reader;
 
@@ -74,6 +89,12 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
             let place = Place::Line(line_of(&bytes, at));
             notes.push(Note::vertices_stay(place, why));
         }
+        let faces_movable = face_obstacle.is_none();
+        if let Some((at, comments)) = face_obstacle {
+            let place = Place::Line(line_of(&bytes, at));
+            let why = format!("the comments {comments:?} may go by their order");
+            notes.push(Note::faces_stay(place, why));
+        }
         let name = name.map_or_else(
             || "mesh".to_owned(),
             |span| String::from_utf8_lossy(&bytes[span]).into_owned(),
@@ -85,9 +106,9 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
             mesh,
             corners_turnable: records.polygons.is_none(),
             polygons: records.polygons,
-            runs,
+            runs: runs.starts,
             vertex_group: 0,
-            faces_movable: true,
+            faces_movable,
             vertices_movable,
         });
     }
@@ -95,6 +116,8 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     let notation = ObjNotation {
         vertex_count: vertices.len(),
         attributes,
+        definitions: runs.definitions,
+        colors: comments.colors,
     };
     let file = RecordFile {
         source: bytes,

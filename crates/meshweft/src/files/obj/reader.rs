@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use super::attributes::{CornerValues, ObjAttributes};
-use super::statement::{Statements, attribute_numbers};
+use super::comments::Comments;
+use super::runs::{Defined, Runs};
+use super::statement::{Piece, Statements, attribute_numbers};
 use crate::files::error::Fault;
 use crate::files::face_records::{FaceRecords, check_vertex_count, past_the_last_vertex};
 use crate::files::options::ReadOptions;
@@ -12,29 +14,6 @@ use crate::files::text::is_coordinate;
 use crate::files::text::{Tokens, is_blank, leading_number, shown, trimmed};
 use crate::index::index32;
 
-/// Statements that name no vertices (`v`, `f`, `l` and `p` are dealt with by themselves).
-const NAME_NO_VERTICES: [&[u8]; 19] = [
-    b"bevel",
-    b"c_interp",
-    b"d_interp",
-    b"g",
-    b"lod",
-    b"maplib",
-    b"mg",
-    b"mtllib",
-    b"o",
-    b"s",
-    b"shadow_obj",
-    b"trace_obj",
-    b"usemap",
-    b"usemtl",
-    b"vn",
-    b"vp",
-    b"vt",
-    b"ctech",
-    b"stech",
-];
-
 /// The statements of a file, read one after the other.
 pub(super) struct ObjReader<'a> {
     source: &'a [u8],
@@ -42,8 +21,7 @@ pub(super) struct ObjReader<'a> {
     pub(super) vertices: Spans,
     pub(super) faces: Spans,
     pub(super) records: FaceRecords,
-    pub(super) runs: Vec<u32>,
-    in_run: bool,
+    pub(super) runs: Runs<'a>,
     /// The `l` and `p` lines.
     pub(super) lines: Spans,
     /// The largest plain number that an `f`, `l` or `p` names.
@@ -52,6 +30,11 @@ pub(super) struct ObjReader<'a> {
     pub(super) name: Option<Range<usize>>,
     /// Why the vertices cannot move, and where that was found.
     pub(super) obstacle: Option<(usize, String)>,
+    /// The comments that may go by the order of the faces, and where the first is.
+    pub(super) face_obstacle: Option<(usize, String)>,
+    pub(super) comments: Comments<'a>,
+    /// The first vertex below a face, line or point.
+    late_vertex: Option<usize>,
     /// The fewest and the most numbers that a `v` line has.
     vertex_numbers: (usize, usize),
     /// Texture coordinates and normals.
@@ -68,6 +51,10 @@ struct Named {
     counts: [usize; 2],
     /// Whether one names the first of all texture coordinates.
     first_texture: bool,
+    /// Whether one counts back: to a vertex, a texture coordinate, a normal.
+    back: [bool; 3],
+    /// Whether one counts back past the first texture coordinate or normal.
+    is_past_first: bool,
 }
 
 /// The `vt` or `vn` lines, as far as they are looked at.
@@ -94,12 +81,14 @@ impl<'a> ObjReader<'a> {
             vertices: Spans::new(),
             faces: Spans::new(),
             records: FaceRecords::default(),
-            runs: Vec::new(),
-            in_run: false,
+            runs: Runs::new(source),
             lines: Spans::new(),
             largest: 0,
             name: None,
             obstacle: None,
+            face_obstacle: None,
+            comments: Comments::new(source),
+            late_vertex: None,
             vertex_numbers: (usize::MAX, 0),
             values: [SeenLines::default(); 2],
             corner_count: 0,
@@ -109,9 +98,24 @@ impl<'a> ObjReader<'a> {
 
     /// Reads all statements.
     pub(super) fn statements(&mut self) -> Result<(), Fault> {
-        for span in Statements::new(self.source) {
-            self.statement(span)?;
+        let mut pieces = Statements::new(self.source);
+        while let Some(piece) = pieces.next_piece() {
+            match piece {
+                Piece::Statement(span) => self.statement(span)?,
+                Piece::Comment(span) => {
+                    let at = span.start;
+                    let taken = self.comments.comment(span);
+                    taken.map_err(|kind| Fault { at, kind })?;
+                }
+            }
         }
+        let closed = self.runs.close();
+        closed.map_err(|kind| Fault {
+            at: self.source.len(),
+            kind,
+        })?;
+        self.check_late_vertex();
+        self.check_comments()?;
         self.check_attributes();
         Ok(())
     }
@@ -124,37 +128,43 @@ impl<'a> ObjReader<'a> {
             return Ok(());
         };
 
-        match &text[keyword.clone()] {
+        let rest = trimmed(text, keyword.end, span.end);
+        let blanks = text[rest.clone()].iter().take_while(|&&b| is_blank(b));
+        let rest = rest.start + blanks.count()..rest.end;
+        match &text[keyword] {
             b"f" => return self.face(span, tokens),
-            b"v" => self.vertex(span, tokens)?,
-            b"l" | b"p" => self.line(span, tokens)?,
-            b"vt" => self.value(0, span.start, tokens),
-            b"vn" => self.value(1, span.start, tokens),
-            b"g" if self.options.across_groups => return Ok(()),
-            b"o" => {
-                let rest = trimmed(text, keyword.end, span.end);
-                let blanks = text[rest.clone()].iter().take_while(|&&b| is_blank(b));
-                let rest = rest.start + blanks.count()..rest.end;
-                if self.name.is_none() && !rest.is_empty() {
-                    self.name = Some(rest);
+            b"v" => return self.vertex(span, tokens),
+            b"l" | b"p" => return self.line(span, tokens),
+            b"vt" => self.value(0, span, tokens),
+            b"vn" => self.value(1, span, tokens),
+            b"vp" => {}
+            keyword @ (b"g" | b"o") => {
+                if keyword == b"o" && self.name.is_none() && !rest.is_empty() {
+                    self.name = Some(rest.clone());
                 }
-                if self.options.across_groups {
-                    return Ok(());
+                // Vertices below are those of another object, to some readers.
+                self.runs.bar(Defined::Vertex);
+                if !self.options.across_groups {
+                    // Objects without a name are told apart by their `o` alone.
+                    if keyword == b"o" && rest.is_empty() {
+                        self.runs.end();
+                    }
+                    self.runs.state.set(keyword, rest);
                 }
             }
-            other if NAME_NO_VERTICES.contains(&other) => {}
-            other if self.is_assumed_safe(other) => {}
-            other => {
-                let name = String::from_utf8_lossy(other);
+            keyword if self.runs.state.set(keyword, rest) => {}
+            keyword if self.is_assumed_safe(keyword) => self.runs.end(),
+            keyword => {
+                self.runs.end();
+                let name = String::from_utf8_lossy(keyword);
                 if let Some(kind) = self.options.refusal("the statement", &name) {
                     let at = span.start;
                     return Err(Fault { at, kind });
                 }
-                let why = format!("the statement {} may name them", shown(other));
+                let why = format!("the statement {} may name them", shown(keyword));
                 self.obstacle.get_or_insert((span.start, why));
             }
         }
-        self.in_run = false;
         Ok(())
     }
 
@@ -187,11 +197,11 @@ impl<'a> ObjReader<'a> {
         }
 
         if self.records.len() + self.lines.len() > 0 {
-            let why = "this one comes after faces, lines or points".to_owned();
-            self.obstacle.get_or_insert((span.start, why));
+            self.late_vertex.get_or_insert(span.start);
         }
 
         let at = span.start;
+        self.runs.definition(span.clone(), Defined::Vertex);
         self.vertices
             .push(span)
             .map_err(|kind| Fault { at, kind })?;
@@ -199,11 +209,13 @@ impl<'a> ObjReader<'a> {
             .map_err(|kind| Fault { at, kind })
     }
 
-    fn value(&mut self, which: usize, at: usize, mut tokens: Tokens<'_>) {
+    fn value(&mut self, which: usize, span: Range<usize>, mut tokens: Tokens<'_>) {
         let seen = &mut self.values[which];
         if seen.count == 0 {
-            seen.first = at;
+            seen.first = span.start;
         }
+        self.runs
+            .definition(span, [Defined::Texture, Defined::Normal][which]);
         seen.count += 1;
         // Most files have two: the first tells, and the others need no look.
         if which == 0 && (seen.count == 1 || seen.with_three > 0) {
@@ -231,11 +243,17 @@ impl<'a> ObjReader<'a> {
         self.values[0].is_first_named |= has_faces && named.first_texture;
         self.corner_count += if has_faces { corners.len() } else { 0 };
 
-        if !self.in_run {
-            self.runs.push(index32(self.records.len()));
-            self.in_run = true;
+        // One that names what is not there stays where it does so.
+        if named.is_past_first {
+            self.runs.end();
         }
-        let pushed = self.records.push(&corners, &self.options.limits);
+        let [texture, normals] = self.values.map(|seen| seen.count);
+        let above = [self.vertices.len(), texture, normals];
+        let pushed = self.runs.face(self.records.len(), above);
+        if named.is_past_first {
+            self.runs.end();
+        }
+        let pushed = pushed.and_then(|()| self.records.push(&corners, &self.options.limits));
         self.corners = corners;
         let pushed = pushed.and_then(|()| self.faces.push(span));
         pushed.map_err(|kind| Fault { at, kind })
@@ -244,8 +262,13 @@ impl<'a> ObjReader<'a> {
     fn line(&mut self, span: Range<usize>, tokens: Tokens<'_>) -> Result<(), Fault> {
         let at = span.start;
         for token in tokens {
-            let vertex = self.vertex_of_token(&self.source[token], &mut Named::default());
+            let mut named = Named::default();
+            let vertex = self.vertex_of_token(&self.source[token], &mut named);
             vertex.map_err(|text| Fault::malformed(at, text))?;
+            let kinds = [Defined::Vertex, Defined::Texture, Defined::Normal];
+            for (kind, _) in kinds.into_iter().zip(named.back).filter(|&(_, back)| back) {
+                self.runs.bar(kind);
+            }
         }
         self.lines.push(span).map_err(|kind| Fault { at, kind })
     }
@@ -259,8 +282,12 @@ impl<'a> ObjReader<'a> {
         if length < token.len() {
             let numbers = attribute_numbers(&token[length..])
                 .ok_or_else(|| format!("{} is not of the form 1/2/3", shown(token)))?;
-            for (count, number) in named.counts.iter_mut().zip(numbers) {
-                *count += usize::from(number.is_some());
+            for (which, number) in numbers.into_iter().enumerate() {
+                named.counts[which] += usize::from(number.is_some());
+                let back = number.filter(|&number| number < 0).map(i64::unsigned_abs);
+                named.back[1 + which] |= back.is_some();
+                let count = self.values[which].count as u64;
+                named.is_past_first |= back.is_some_and(|back| back > count);
             }
             named.first_texture |= numbers[0] == Some(1);
         }
@@ -274,6 +301,7 @@ impl<'a> ObjReader<'a> {
         if number == 0 {
             return Err("index 0: vertices are counted from 1 (or back from -1)".to_owned());
         }
+        named.back[0] = true;
         let back = usize::try_from(number.unsigned_abs()).unwrap_or(usize::MAX);
         match vertex_count.checked_sub(back) {
             Some(vertex) => Ok(index32(vertex)),
@@ -281,6 +309,55 @@ impl<'a> ObjReader<'a> {
                 "index {number} counts back past the first of the {vertex_count} vertices above it"
             )),
         }
+    }
+
+    /// A vertex below a face, line or point that may come to name it keeps all where they are. Those
+    /// between the faces of the first run go above these.
+    fn check_late_vertex(&mut self) {
+        let Some(at) = self.late_vertex else { return };
+        let last_vertex = self.vertices.start(self.vertices.len() - 1);
+        let end_of_run = self
+            .runs
+            .starts
+            .get(1)
+            .map_or(self.faces.len(), |&end| end as usize);
+        let goes_above = end_of_run > 0
+            && last_vertex < self.faces.start(end_of_run - 1)
+            && last_vertex < self.lines.start(0);
+        if !goes_above {
+            let why = "this one comes after faces, lines or points".to_owned();
+            self.keep_vertices(at, why);
+        }
+    }
+
+    /// Keeps the vertices where they are; what stands first in the file is why.
+    fn keep_vertices(&mut self, at: usize, why: String) {
+        if self.obstacle.as_ref().is_none_or(|&(other, _)| at < other) {
+            self.obstacle = Some((at, why));
+        }
+    }
+
+    /// Comments with data for each vertex or face, unless it can go along, keep these where they are.
+    fn check_comments(&mut self) -> Result<(), Fault> {
+        let vertex_count = self.vertices.len();
+        if let Some((at, why)) = self.comments.vertex_obstacle(vertex_count) {
+            self.keep_vertices(at, why);
+        }
+        let of_vertices = self.comments.unknown(vertex_count, self.options);
+        let of_faces = self.comments.unknown(self.faces.len(), self.options);
+        if let Some((at, word)) = of_vertices.as_ref().or(of_faces.as_ref()) {
+            if let Some(kind) = self.options.refusal("the comment", word) {
+                return Err(Fault { at: *at, kind });
+            }
+        }
+        match of_vertices {
+            Some((at, word)) => {
+                let why = format!("the comments {word:?} may go by their order");
+                self.keep_vertices(at, why);
+            }
+            None => self.face_obstacle = of_faces,
+        }
+        Ok(())
     }
 
     /// Texture coordinates or normals that no face names, as many as vertices: some programs take

@@ -19,24 +19,45 @@ impl<'a> Statements<'a> {
     }
 }
 
-impl Iterator for Statements<'_> {
-    type Item = Range<usize>;
+/// A piece of a file.
+pub(super) enum Piece {
+    Statement(Range<usize>),
+    /// A comment with a line of its own, from its `#` on.
+    Comment(Range<usize>),
+}
 
+impl Statements<'_> {
+    /// The next statement or comment.
     #[inline]
-    fn next(&mut self) -> Option<Range<usize>> {
+    pub(super) fn next_piece(&mut self) -> Option<Piece> {
         let source = self.source;
         while let Some(&byte) = source.get(self.at) {
             if is_blank(byte) || is_line_end(byte) {
                 self.at += 1;
             } else if byte == b'#' {
-                self.at = line_end(source, self.at);
+                let start = self.at;
+                self.at = line_end(source, start);
+                return Some(Piece::Comment(start..self.at));
             } else {
                 let (span, end) = statement_span(source, self.at);
                 self.at = end;
-                return Some(span);
+                return Some(Piece::Statement(span));
             }
         }
         None
+    }
+}
+
+impl Iterator for Statements<'_> {
+    type Item = Range<usize>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Range<usize>> {
+        loop {
+            if let Piece::Statement(span) = self.next_piece()? {
+                return Some(span);
+            }
+        }
     }
 }
 

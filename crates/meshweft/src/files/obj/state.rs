@@ -1,0 +1,135 @@
+//! What holds for a face: the statements above it that stay in force.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// Statements that say something of all faces below them, until the next one of their kind.
+const KINDS: [&[u8]; 14] = [
+    b"g",
+    b"o",
+    b"s",
+    b"usemtl",
+    b"usemap",
+    b"mg",
+    b"lod",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"shadow_obj",
+    b"trace_obj",
+    b"ctech",
+    b"stech",
+];
+
+/// What a statement of one kind said last.
+#[derive(Clone, Default, PartialEq, Eq)]
+struct Setting {
+    /// Its text after the keyword.
+    text: Option<Range<usize>>,
+    /// How many libraries stood above it: a name may mean something else after one more.
+    libraries: usize,
+}
+
+/// The state of the faces at one place of a file, and that of the last face above it.
+pub(super) struct FaceState<'a> {
+    source: &'a [u8],
+    now: [Setting; KINDS.len()],
+    at_last_face: [Setting; KINDS.len()],
+    /// Whether a setting may differ from that of the last face.
+    is_touched: bool,
+    /// What `mtllib` and `maplib` named.
+    libraries: BTreeSet<&'a [u8]>,
+}
+
+impl<'a> FaceState<'a> {
+    pub(super) fn new(source: &'a [u8]) -> Self {
+        Self {
+            source,
+            now: Default::default(),
+            at_last_face: Default::default(),
+            is_touched: false,
+            libraries: BTreeSet::new(),
+        }
+    }
+
+    /// Takes a statement with the text `rest` after its keyword; `false` if it is none that holds for
+    /// faces.
+    pub(super) fn set(&mut self, keyword: &[u8], rest: Range<usize>) -> bool {
+        if matches!(keyword, b"mtllib" | b"maplib") {
+            self.libraries.insert(&self.source[rest]);
+            return true;
+        }
+        let Some(kind) = KINDS.iter().position(|&kind| kind == keyword) else {
+            return false;
+        };
+        let setting = Setting {
+            text: Some(rest),
+            libraries: match keyword {
+                b"usemtl" | b"usemap" => self.libraries.len(),
+                _ => 0,
+            },
+        };
+        if !self.is_same(&self.now[kind], &setting) {
+            self.now[kind] = setting;
+            self.is_touched = true;
+        }
+        true
+    }
+
+    /// Whether a face here has the state of the last one; it is the last one from now on.
+    ///
+    /// Compares only the texts of statements that came since: O(their bytes) in all.
+    pub(super) fn continues(&mut self) -> bool {
+        if !std::mem::take(&mut self.is_touched) {
+            return true;
+        }
+        let mut pairs = self.now.iter().zip(&self.at_last_face);
+        if pairs.all(|(now, last)| self.is_same(now, last)) {
+            return true;
+        }
+        self.at_last_face.clone_from(&self.now);
+        false
+    }
+
+    fn is_same(&self, a: &Setting, b: &Setting) -> bool {
+        let text = |setting: &Setting| setting.text.clone().map(|text| &self.source[text]);
+        a == b || (a.libraries == b.libraries && text(a) == text(b))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether each `f` of a text has the state of the one above it.
+    fn continued(text: &str) -> Vec<bool> {
+        let mut state = FaceState::new(text.as_bytes());
+        let mut continued = Vec::new();
+        let mut at = 0;
+        for line in text.split_inclusive(';') {
+            let (keyword, rest) = line.trim_end_matches(';').split_once(' ').unwrap();
+            let start = at + keyword.len() + 1;
+            match keyword {
+                "f" => continued.push(state.continues()),
+                _ => assert!(state.set(keyword.as_bytes(), start..start + rest.len())),
+            }
+            at += line.len();
+        }
+        continued
+    }
+
+    #[test]
+    fn states_are_compared_by_value() {
+        let same = "usemtl a;f 1;usemtl a;f 2;usemtl b;usemtl a;f 3;";
+        assert_eq!(continued(same), [false, true, true]);
+        let back = "usemtl a;f 1;usemtl b;f 2;usemtl a;f 3;s 1;f 4;s 1;f 5;s off;f 6;";
+        assert_eq!(continued(back), [false, false, false, false, true, false]);
+        assert_eq!(continued("f 1;g a;f 2;g a;f 3;"), [true, false, true]);
+    }
+
+    #[test]
+    fn a_name_after_another_library_may_be_another_material() {
+        let text = "mtllib a;usemtl x;f 1;mtllib a;usemtl x;f 2;mtllib b;f 3;usemtl x;f 4;";
+        assert_eq!(continued(text), [false, true, true, false]);
+    }
+}
