@@ -12,6 +12,8 @@ mod errors;
 mod follow;
 #[path = "files_text/obj_comments.rs"]
 mod obj_comments;
+#[path = "files_text/obj_materials.rs"]
+mod obj_materials;
 #[path = "files_text/obj_runs.rs"]
 mod obj_runs;
 #[path = "files_text/obj_values.rs"]

@@ -69,6 +69,17 @@ impl Definitions {
         Ok(())
     }
 
+    /// Numbers the runs again: `new_of` gives the new number of each, or `None` if its faces stay.
+    pub(super) fn number_runs(&mut self, new_of: impl Fn(usize) -> Option<usize>) {
+        self.runs.retain_mut(|of| match new_of(of.run) {
+            Some(new) => {
+                of.run = new;
+                true
+            }
+            None => false,
+        });
+    }
+
     /// The places of the faces and of these lines, where faces of a run with such lines move, or the
     /// vertices between them; `None` if there are none. `runs` has the first record of each run.
     pub(super) fn places(

@@ -116,7 +116,7 @@ impl Document {
 
         let read = match format {
             Format::Gltf | Format::Glb => gltf::read(bytes, format, name, surroundings, options),
-            Format::Obj => obj::read(bytes, options),
+            Format::Obj => obj::read(bytes, surroundings, options),
             Format::Ply => ply::read(bytes, options),
             Format::Off => off::read(bytes, options),
             Format::Stl => stl::read(bytes, options),

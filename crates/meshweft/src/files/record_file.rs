@@ -2,7 +2,7 @@
 //!
 //! The source is never changed: orders add up, and the output is spliced when it is asked for.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
 use super::content::{Content, OutputFile, OutputPlace};
@@ -188,6 +188,10 @@ impl<N: Notation> Content for RecordFile<N> {
             orders.add_vertices(vertices);
             entry.apply_vertices(vertices);
         }
+    }
+
+    fn companions(&self) -> Vec<PathBuf> {
+        self.notation.companions()
     }
 
     fn files(&self, path: &Path, _: &[Placed]) -> Result<Vec<OutputFile<'_>>, Problem> {

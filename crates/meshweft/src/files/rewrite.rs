@@ -2,6 +2,7 @@
 //! turned and its vertices renumbered, and how to read values from records.
 
 use std::ops::Range;
+use std::path::PathBuf;
 
 use super::definitions::Definitions;
 use super::entry::MeshEntry;
@@ -182,6 +183,11 @@ pub(super) trait Notation: Send + Sync {
     /// Appends a line that names vertices and stays where it is.
     fn write_line(&self, line: &[u8], rewrite: Rewrite<'_>) {
         rewrite.out.extend_from_slice(line);
+    }
+
+    /// See [`Content::companions`](super::content::Content::companions).
+    fn companions(&self) -> Vec<PathBuf> {
+        Vec::new()
     }
 
     /// See [`Content::attributes`](super::content::Content::attributes).

@@ -65,6 +65,15 @@ impl<'a> Surroundings<'a> {
         }
     }
 
+    /// Whether there is a file at this relative path.
+    pub(super) fn has(self, relative: &Path) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Folder(folder) => folder.join(relative).is_file(),
+            Self::Memory(files) => files.contains_key(relative),
+        }
+    }
+
     /// What the file at this relative path holds.
     pub(super) fn read(self, relative: &Path, limits: &Limits) -> Result<Stored, FileErrorKind> {
         self.read_start(relative, u64::MAX, limits)

@@ -25,6 +25,11 @@
 //! and numbers are counted by the word: where there is a line or a number for each vertex, or face, these
 //! stay.
 //!
+//! Transparent faces (material with `d` below 1, `Tr` above 0 or `map_d`) are drawn one over the other:
+//! each is a run of its own. The libraries of materials are looked for beside the file; where one is
+//! missing, all is taken as opaque, with a note. They and the textures they name come along when the file
+//! is written elsewhere.
+//!
 //! What can be read of it:
 //!
 //! - The position of a vertex, and its color if every `v` line has one behind the position
@@ -34,15 +39,20 @@
 //!   second one that a `vt` line leaves out is 0.
 //!
 //! [`reader`] finds the statements and [`statement`] cuts them, [`runs`] and [`state`] tell which faces
-//! may change places, [`comments`] keeps data in comments, [`notation`] writes corners, [`attributes`] reads values.
+//! may change places, [`comments`] keeps data in comments,
+//! [`materials`] and [`paths`] read what stands beside, [`notation`] writes corners, [`attributes`] reads values.
 
 mod attributes;
 mod comments;
+mod materials;
 mod notation;
+mod paths;
 mod reader;
 mod runs;
 mod state;
 mod statement;
+
+use std::path::PathBuf;
 
 use crate::Mesh;
 use crate::files::content::ReadResult;
@@ -52,19 +62,25 @@ use crate::files::note::Note;
 use crate::files::options::ReadOptions;
 use crate::files::orders::RecordOrders;
 use crate::files::record_file::RecordFile;
-use crate::files::text::line_of;
+use crate::files::surroundings::Surroundings;
+use crate::files::text::{line_of, shown};
+use materials::Materials;
 use notation::ObjNotation;
 use reader::ObjReader;
 
 /// Reads an OBJ file.
-pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
+pub(super) fn read(
+    bytes: Vec<u8>,
+    surroundings: Surroundings<'_>,
+    options: &ReadOptions,
+) -> ReadResult {
     let mut reader = ObjReader::new(&bytes, options);
     reader
         .statements()
         .map_err(|fault| fault.on_its_line(&bytes))?;
-    reader
-        .check_range()
-        .map_err(|fault| fault.on_its_line(&bytes))?;
+    let mut notes = Vec::new();
+    let companions = materials(&mut reader, surroundings, options, &mut notes);
+    reader.check().map_err(|fault| fault.on_its_line(&bytes))?;
     let attributes = reader.attributes();
     let ObjReader {
         vertices,
@@ -79,7 +95,6 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         ..
     } = reader;
 
-    let mut notes = Vec::new();
     let mut entries = Vec::new();
     if records.len() == 0 {
         notes.push(Note::nothing_to_order());
@@ -118,6 +133,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         attributes,
         definitions: runs.definitions,
         colors: comments.colors,
+        companions,
     };
     let file = RecordFile {
         source: bytes,
@@ -130,4 +146,43 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         orders: RecordOrders::default(),
     };
     Ok((Box::new(file), notes))
+}
+
+/// Reads the libraries of materials, and keeps transparent faces where they are. The files that come
+/// along.
+fn materials(
+    reader: &mut ObjReader<'_>,
+    surroundings: Surroundings<'_>,
+    options: &ReadOptions,
+    notes: &mut Vec<Note>,
+) -> Vec<PathBuf> {
+    let ObjReader { runs, faces, .. } = reader;
+    let libraries = &runs.state.libraries;
+    let used = runs.materials();
+    let has_materials = used.clone().next().is_some();
+    let materials = Materials::read(libraries, used, surroundings, &options.limits);
+
+    if !options.reorder_transparent {
+        if let Some((at, path, why)) = materials.unread.as_ref().filter(|_| has_materials) {
+            let place = Place::Line(line_of(reader.source, *at));
+            let path = path.display();
+            let text = format!(
+                "whether materials are transparent cannot be told, so their faces move: {path}: {why}"
+            );
+            notes.push(Note::new(place, text));
+        }
+        let kept = runs.keep(faces.len(), |name| materials.is_transparent(name));
+        if let Some((count, face, name)) = kept {
+            let place = Place::Line(line_of(reader.source, faces.start(face)));
+            let why = format!(
+                "their material {} is transparent, so each is drawn over those before it; \
+                 reorder_transparent lets them move",
+                shown(name)
+            );
+            let mut note = Note::faces_stay(place, why);
+            note.more = count - 1;
+            notes.push(note);
+        }
+    }
+    materials.files.into_iter().collect()
 }

@@ -1,5 +1,7 @@
 //! OBJ faces, lines and points on their way to the output.
 
+use std::path::PathBuf;
+
 use super::attributes::ObjAttributes;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::files::definitions::Definitions;
@@ -17,6 +19,8 @@ pub(super) struct ObjNotation {
     pub(super) definitions: Definitions,
     /// The colors in comments, if any one for each vertex.
     pub(super) colors: Spans,
+    /// The libraries of materials and their textures.
+    pub(super) companions: Vec<PathBuf>,
 }
 
 impl Notation for ObjNotation {
@@ -78,6 +82,10 @@ impl Notation for ObjNotation {
         self.write_face(line, rewrite);
     }
 
+    fn companions(&self) -> Vec<PathBuf> {
+        self.companions.clone()
+    }
+
     fn attributes(&self) -> Vec<AttributeInfo> {
         self.attributes.infos()
     }
@@ -106,6 +114,7 @@ mod tests {
             },
             definitions: Definitions::new(),
             colors: Spans::new(),
+            companions: Vec::new(),
         };
         let settled = |record: &str| {
             let mut out = Vec::new();

@@ -16,7 +16,7 @@ use crate::index::index32;
 
 /// The statements of a file, read one after the other.
 pub(super) struct ObjReader<'a> {
-    source: &'a [u8],
+    pub(super) source: &'a [u8],
     options: &'a ReadOptions,
     pub(super) vertices: Spans,
     pub(super) faces: Spans,
@@ -109,11 +109,14 @@ impl<'a> ObjReader<'a> {
                 }
             }
         }
+        let at = self.source.len();
         let closed = self.runs.close();
-        closed.map_err(|kind| Fault {
-            at: self.source.len(),
-            kind,
-        })?;
+        closed.map_err(|kind| Fault { at, kind })
+    }
+
+    /// Whether all numbers name vertices, and what must stay: all vertices and runs are known.
+    pub(super) fn check(&mut self) -> Result<(), Fault> {
+        self.check_range()?;
         self.check_late_vertex();
         self.check_comments()?;
         self.check_attributes();
@@ -398,7 +401,7 @@ impl<'a> ObjReader<'a> {
     }
 
     /// Whether all numbers name vertices: those below the face count too, so this is last.
-    pub(super) fn check_range(&self) -> Result<(), Fault> {
+    fn check_range(&self) -> Result<(), Fault> {
         let count = self.vertices.len();
         let past = |number: i64| usize::try_from(number).is_ok_and(|number| number > count);
         if !past(self.largest) {

@@ -1,5 +1,6 @@
 //! Which faces may change places.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::state::FaceState;
@@ -20,6 +21,10 @@ pub(super) struct Runs<'a> {
     pub(super) state: FaceState<'a>,
     /// The first face of each run.
     pub(super) starts: Vec<u32>,
+    /// The material of each run, as a number of `materials`; 0 if it has none.
+    material_of: Vec<u32>,
+    /// The materials that faces have, numbered from 1.
+    materials: BTreeMap<&'a [u8], u32>,
     /// The definitions between the faces of runs.
     pub(super) definitions: Definitions,
     /// Whether the next face may belong to the last run.
@@ -39,6 +44,8 @@ impl<'a> Runs<'a> {
         Self {
             state: FaceState::new(source),
             starts: Vec::new(),
+            material_of: Vec::new(),
+            materials: BTreeMap::new(),
             definitions: Definitions::new(),
             is_open: false,
             since: Vec::new(),
@@ -58,6 +65,11 @@ impl<'a> Runs<'a> {
 
         self.close()?;
         self.starts.push(index32(face));
+        self.material_of
+            .push(self.state.material().map_or(0, |name| {
+                let next = index32(self.materials.len() + 1);
+                *self.materials.entry(name).or_insert(next)
+            }));
         self.above = above;
         self.barred = [false; 3];
         self.is_open = true;
@@ -93,5 +105,48 @@ impl<'a> Runs<'a> {
         }
         self.between = 0;
         Ok(())
+    }
+
+    /// The materials that faces have.
+    pub(super) fn materials(&self) -> impl Iterator<Item = &'a [u8]> + Clone {
+        self.materials.keys().copied()
+    }
+
+    /// Keeps each of `face_count` faces where it is whose material `stays`. Says in how many runs, and in
+    /// the first of them, which face is the first and what the material is.
+    pub(super) fn keep(
+        &mut self,
+        face_count: usize,
+        stays: impl Fn(&[u8]) -> bool,
+    ) -> Option<(usize, usize, &'a [u8])> {
+        let kept = self.materials.iter().filter(|&(name, _)| stays(name));
+        let kept: BTreeMap<u32, &'a [u8]> = kept.map(|(&name, &number)| (number, name)).collect();
+        let run = |run: usize| {
+            let end = self
+                .starts
+                .get(run + 1)
+                .map_or(face_count, |&end| end as usize);
+            (self.starts[run] as usize, end, self.material_of[run])
+        };
+        let runs = (0..self.starts.len()).map(run);
+        let mut kept_runs = runs
+            .clone()
+            .filter(|(.., number)| kept.contains_key(number));
+        let (face, _, number) = kept_runs.next()?;
+        let found = Some((1 + kept_runs.count(), face, kept[&number]));
+
+        let mut starts = Vec::new();
+        let mut new_of = Vec::new();
+        for (start, end, number) in runs {
+            let stays = kept.contains_key(&number);
+            new_of.push((!stays).then_some(starts.len()));
+            match stays {
+                true => starts.extend(index32(start)..index32(end)),
+                false => starts.push(index32(start)),
+            }
+        }
+        self.definitions.number_runs(|run| new_of[run]);
+        self.starts = starts;
+        found
     }
 }

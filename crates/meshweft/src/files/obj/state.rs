@@ -1,6 +1,6 @@
 //! What holds for a face: the statements above it that stay in force.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Statements that say something of all faces below them, until the next one of their kind.
@@ -8,7 +8,7 @@ const KINDS: [&[u8]; 14] = [
     b"g",
     b"o",
     b"s",
-    b"usemtl",
+    USEMTL,
     b"usemap",
     b"mg",
     b"lod",
@@ -20,6 +20,8 @@ const KINDS: [&[u8]; 14] = [
     b"ctech",
     b"stech",
 ];
+
+const USEMTL: &[u8] = b"usemtl";
 
 /// What a statement of one kind said last.
 #[derive(Clone, Default, PartialEq, Eq)]
@@ -37,8 +39,10 @@ pub(super) struct FaceState<'a> {
     at_last_face: [Setting; KINDS.len()],
     /// Whether a setting may differ from that of the last face.
     is_touched: bool,
-    /// What `mtllib` and `maplib` named.
-    libraries: BTreeSet<&'a [u8]>,
+    /// What `mtllib` named, and where first.
+    pub(super) libraries: BTreeMap<&'a [u8], usize>,
+    /// What `maplib` named.
+    map_libraries: BTreeSet<&'a [u8]>,
 }
 
 impl<'a> FaceState<'a> {
@@ -48,16 +52,25 @@ impl<'a> FaceState<'a> {
             now: Default::default(),
             at_last_face: Default::default(),
             is_touched: false,
-            libraries: BTreeSet::new(),
+            libraries: BTreeMap::new(),
+            map_libraries: BTreeSet::new(),
         }
     }
 
     /// Takes a statement with the text `rest` after its keyword; `false` if it is none that holds for
     /// faces.
     pub(super) fn set(&mut self, keyword: &[u8], rest: Range<usize>) -> bool {
-        if matches!(keyword, b"mtllib" | b"maplib") {
-            self.libraries.insert(&self.source[rest]);
-            return true;
+        match keyword {
+            b"mtllib" => {
+                let at = rest.start;
+                self.libraries.entry(&self.source[rest]).or_insert(at);
+                return true;
+            }
+            b"maplib" => {
+                self.map_libraries.insert(&self.source[rest]);
+                return true;
+            }
+            _ => {}
         }
         let Some(kind) = KINDS.iter().position(|&kind| kind == keyword) else {
             return false;
@@ -65,7 +78,8 @@ impl<'a> FaceState<'a> {
         let setting = Setting {
             text: Some(rest),
             libraries: match keyword {
-                b"usemtl" | b"usemap" => self.libraries.len(),
+                USEMTL => self.libraries.len(),
+                b"usemap" => self.map_libraries.len(),
                 _ => 0,
             },
         };
@@ -89,6 +103,13 @@ impl<'a> FaceState<'a> {
         }
         self.at_last_face.clone_from(&self.now);
         false
+    }
+
+    /// The material that holds here.
+    pub(super) fn material(&self) -> Option<&'a [u8]> {
+        let kind = KINDS.iter().position(|&kind| kind == USEMTL)?;
+        let text = self.now[kind].text.clone()?;
+        Some(&self.source[text])
     }
 
     fn is_same(&self, a: &Setting, b: &Setting) -> bool {
