@@ -95,10 +95,7 @@ fn libraries_and_textures_come_along() {
         companions(&read(OBJ, None, ReadOptions::default())),
         [Path::new("m/all.mtl")]
     );
-    assert_eq!(
-        companions(&open(b"v 0 0 0\nf 1 1 1\n", Format::Obj)),
-        [PathBuf::new(); 0]
-    );
+    assert!(companions(&open(b"v 0 0 0\nf 1 1 1\n", Format::Obj)).is_empty());
 }
 
 /// Any bytes are a library.

@@ -348,11 +348,12 @@ impl<'a> ObjReader<'a> {
         }
         let of_vertices = self.comments.unknown(vertex_count, self.options);
         let of_faces = self.comments.unknown(self.faces.len(), self.options);
-        if let Some((at, word)) = of_vertices.as_ref().or(of_faces.as_ref()) {
-            if let Some(kind) = self.options.refusal("the comment", word) {
-                return Err(Fault { at: *at, kind });
-            }
-        }
+        let unknown = of_vertices.as_ref().or(of_faces.as_ref());
+        let refused = unknown.and_then(|(at, word)| {
+            let kind = self.options.refusal("the comment", word)?;
+            Some(Fault { at: *at, kind })
+        });
+        refused.map_or(Ok(()), Err)?;
         match of_vertices {
             Some((at, word)) => {
                 let why = format!("the comments {word:?} may go by their order");
