@@ -46,6 +46,7 @@ mod attributes;
 mod comments;
 mod materials;
 mod notation;
+mod obstacles;
 mod paths;
 mod reader;
 mod runs;

@@ -17,7 +17,7 @@ use crate::index::index32;
 /// The statements of a file, read one after the other.
 pub(super) struct ObjReader<'a> {
     pub(super) source: &'a [u8],
-    options: &'a ReadOptions,
+    pub(super) options: &'a ReadOptions,
     pub(super) vertices: Spans,
     pub(super) faces: Spans,
     pub(super) records: FaceRecords,
@@ -34,11 +34,11 @@ pub(super) struct ObjReader<'a> {
     pub(super) face_obstacle: Option<(usize, String)>,
     pub(super) comments: Comments<'a>,
     /// The first vertex below a face, line or point.
-    late_vertex: Option<usize>,
+    pub(super) late_vertex: Option<usize>,
     /// The fewest and the most numbers that a `v` line has.
     vertex_numbers: (usize, usize),
     /// Texture coordinates and normals.
-    values: [SeenLines; 2],
+    pub(super) values: [SeenLines; 2],
     /// How many corners there are, of records with faces.
     corner_count: usize,
     corners: Vec<u32>,
@@ -59,16 +59,16 @@ struct Named {
 
 /// The `vt` or `vn` lines, as far as they are looked at.
 #[derive(Clone, Copy, Default)]
-struct SeenLines {
-    count: usize,
+pub(super) struct SeenLines {
+    pub(super) count: usize,
     /// Where the first is.
-    first: usize,
+    pub(super) first: usize,
     /// How many texture coordinates have three numbers, if the first has; not counted otherwise.
     with_three: usize,
     /// Whether a face names the first.
     is_first_named: bool,
     /// Whether a face names one.
-    is_named: bool,
+    pub(super) is_named: bool,
     /// How many corners name one, of records with faces.
     corners: usize,
 }
@@ -112,15 +112,6 @@ impl<'a> ObjReader<'a> {
         let at = self.source.len();
         let closed = self.runs.close();
         closed.map_err(|kind| Fault { at, kind })
-    }
-
-    /// Whether all numbers name vertices, and what must stay: all vertices and runs are known.
-    pub(super) fn check(&mut self) -> Result<(), Fault> {
-        self.check_range()?;
-        self.check_late_vertex();
-        self.check_comments()?;
-        self.check_attributes();
-        Ok(())
     }
 
     fn statement(&mut self, span: Range<usize>) -> Result<(), Fault> {
@@ -314,69 +305,6 @@ impl<'a> ObjReader<'a> {
         }
     }
 
-    /// A vertex below a face, line or point that may come to name it keeps all where they are. Those
-    /// between the faces of the first run go above these.
-    fn check_late_vertex(&mut self) {
-        let Some(at) = self.late_vertex else { return };
-        let last_vertex = self.vertices.start(self.vertices.len() - 1);
-        let end_of_run = self
-            .runs
-            .starts
-            .get(1)
-            .map_or(self.faces.len(), |&end| end as usize);
-        let goes_above = end_of_run > 0
-            && last_vertex < self.faces.start(end_of_run - 1)
-            && last_vertex < self.lines.start(0);
-        if !goes_above {
-            let why = "this one comes after faces, lines or points".to_owned();
-            self.keep_vertices(at, why);
-        }
-    }
-
-    /// Keeps the vertices where they are; what stands first in the file is why.
-    fn keep_vertices(&mut self, at: usize, why: String) {
-        if self.obstacle.as_ref().is_none_or(|&(other, _)| at < other) {
-            self.obstacle = Some((at, why));
-        }
-    }
-
-    /// Comments with data for each vertex or face, unless it can go along, keep these where they are.
-    fn check_comments(&mut self) -> Result<(), Fault> {
-        let vertex_count = self.vertices.len();
-        if let Some((at, why)) = self.comments.vertex_obstacle(vertex_count) {
-            self.keep_vertices(at, why);
-        }
-        let of_vertices = self.comments.unknown(vertex_count, self.options);
-        let of_faces = self.comments.unknown(self.faces.len(), self.options);
-        let unknown = of_vertices.as_ref().or(of_faces.as_ref());
-        let refused = unknown.and_then(|(at, word)| {
-            let kind = self.options.refusal("the comment", word)?;
-            Some(Fault { at: *at, kind })
-        });
-        refused.map_or(Ok(()), Err)?;
-        match of_vertices {
-            Some((at, word)) => {
-                let why = format!("the comments {word:?} may go by their order");
-                self.keep_vertices(at, why);
-            }
-            None => self.face_obstacle = of_faces,
-        }
-        Ok(())
-    }
-
-    /// Texture coordinates or normals that no face names, as many as vertices: some programs take
-    /// them as belonging to the vertices one by one, so these must not move.
-    fn check_attributes(&mut self) {
-        for (keyword, seen) in ["vt", "vn"].into_iter().zip(self.values) {
-            if seen.count > 0 && seen.count == self.vertices.len() && !seen.is_named {
-                let why = format!(
-                    "the {keyword} lines, one for each and not used by any face, may belong to them"
-                );
-                self.obstacle.get_or_insert((seen.first, why));
-            }
-        }
-    }
-
     /// What is stored with every vertex, and with every corner.
     pub(super) fn attributes(&self) -> ObjAttributes {
         let colors = match self.vertex_numbers {
@@ -402,7 +330,7 @@ impl<'a> ObjReader<'a> {
     }
 
     /// Whether all numbers name vertices: those below the face count too, so this is last.
-    fn check_range(&self) -> Result<(), Fault> {
+    pub(super) fn check_range(&self) -> Result<(), Fault> {
         let count = self.vertices.len();
         let past = |number: i64| usize::try_from(number).is_ok_and(|number| number > count);
         if !past(self.largest) {
