@@ -83,11 +83,12 @@ impl Size {
 pub(crate) struct Reading {
     /// Refuse files with something that is not known and may depend on the order
     ///
-    /// A glTF extension on a primitive, accessor or buffer view, a PLY element, an OBJ statement.
-    /// Without this flag, what they may depend on stays where it is, and a note says so.
+    /// A glTF extension on a primitive, accessor or buffer view, a PLY element, an OBJ statement, an OBJ
+    /// comment with numbers. Without this flag, what they may depend on stays where it is, and a note says
+    /// so.
     #[arg(long)]
     strict: bool,
-    /// An extension, element or statement that does not depend on the order; may be repeated
+    /// An extension, element, statement or comment that does not depend on the order; may be repeated
     #[arg(long, value_name = "NAME")]
     assume_order_safe: Vec<String>,
     /// Let faces of an OBJ cross g and o lines: groups may lose and gain faces

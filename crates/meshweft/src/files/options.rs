@@ -21,8 +21,8 @@ pub struct ReadOptions {
     /// Refuse a file with something that is not known and may depend on the order of vertices or
     /// faces. Without it, that order is kept, with a [`Note`](super::Note).
     pub strict: bool,
-    /// Names of glTF extensions, PLY elements and OBJ statements that do not depend on any order,
-    /// by the word of the caller.
+    /// Names of glTF extensions, PLY elements, OBJ statements and first words of OBJ comments that do not
+    /// depend on any order, by the word of the caller.
     pub assume_order_safe: Vec<String>,
     /// External buffers whose bytes must stay, because other files read them too: paths beside that of
     /// the document, as [`external_buffers`](super::external_buffers) gives them.
