@@ -115,10 +115,12 @@ fn stl_cases() -> Vec<(Vec<u8>, String)> {
 pub(super) fn small_files() -> Vec<(Vec<u8>, Format)> {
     let off = b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0 # c\n3 0 1 2\n4 2 1 0 1 255 0\n";
     let obj = b"\\\n\nv 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n 3\nf 3 2 1\nl -1 2";
+    let runs = include_bytes!("../../../../fuzz/corpus/obj/runs.obj");
     let lists = "property list uchar uchar texcoord\n";
     vec![
         (OBJ.into(), Format::Obj),
         (obj.into(), Format::Obj),
+        (runs.into(), Format::Obj),
         (PLY.into(), Format::Ply),
         (binary_ply(false, "int", true, ""), Format::Ply),
         (binary_ply(true, "uchar", false, lists), Format::Ply),
@@ -131,7 +133,11 @@ pub(super) fn small_files() -> Vec<(Vec<u8>, Format)> {
 /// What the fuzz targets do, for a second and from known files.
 #[test]
 fn spoilt_files_are_refused_or_survive() {
-    let pieces: [&[u8]; 16] = [
+    let pieces: [&[u8]; 20] = [
+        b"\nvt 1\n",
+        b"\nv 1 1 1\n",
+        b"\nusemtl a\n",
+        b"\nf -1/-1 -2/-2 1\n",
         b"\n",
         b"\r",
         b" ",
