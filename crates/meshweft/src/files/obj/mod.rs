@@ -175,12 +175,8 @@ fn materials(
         let kept = runs.keep(faces.len(), |name| materials.is_transparent(name));
         if let Some((count, face, name)) = kept {
             let place = Place::Line(line_of(reader.source, faces.start(face)));
-            let why = format!(
-                "their material {} is transparent, so each is drawn over those before it; \
-                 reorder_transparent lets them move",
-                shown(name)
-            );
-            let mut note = Note::faces_stay(place, why);
+            let why = format!("their material {} is transparent", shown(name));
+            let mut note = Note::transparent(place, &why);
             note.more = count - 1;
             notes.push(note);
         }

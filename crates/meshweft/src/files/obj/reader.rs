@@ -46,7 +46,7 @@ pub(super) struct ObjReader<'a> {
 
 /// What the corners of a face name.
 #[derive(Default)]
-struct Named {
+struct NamedLines {
     /// How many name a texture coordinate, and a normal.
     counts: [usize; 2],
     /// Whether one names the first of all texture coordinates.
@@ -221,7 +221,7 @@ impl<'a> ObjReader<'a> {
         let at = span.start;
         let mut corners = std::mem::take(&mut self.corners);
         corners.clear();
-        let mut named = Named::default();
+        let mut named = NamedLines::default();
         for token in tokens {
             let vertex = self.vertex_of_token(&self.source[token], &mut named);
             corners.push(vertex.map_err(|text| {
@@ -256,7 +256,7 @@ impl<'a> ObjReader<'a> {
     fn line(&mut self, span: Range<usize>, tokens: Tokens<'_>) -> Result<(), Fault> {
         let at = span.start;
         for token in tokens {
-            let mut named = Named::default();
+            let mut named = NamedLines::default();
             let vertex = self.vertex_of_token(&self.source[token], &mut named);
             vertex.map_err(|text| Fault::malformed(at, text))?;
             let kinds = [Defined::Vertex, Defined::Texture, Defined::Normal];
@@ -270,7 +270,7 @@ impl<'a> ObjReader<'a> {
     /// The vertex that `1`, `1/2`, `1//3`, `1/2/3` names, from 0; whether it exists is checked when
     /// all vertices are known. Counts in `named` whether it names a texture coordinate and a normal.
     #[inline]
-    fn vertex_of_token(&mut self, token: &[u8], named: &mut Named) -> Result<u32, String> {
+    fn vertex_of_token(&mut self, token: &[u8], named: &mut NamedLines) -> Result<u32, String> {
         let (number, length) = leading_number(token)
             .ok_or_else(|| format!("{} is not a vertex number", shown(token)))?;
         if length < token.len() {
