@@ -10,6 +10,8 @@ mod data;
 mod errors;
 #[path = "files_text/follow.rs"]
 mod follow;
+#[path = "files_text/not_finite.rs"]
+mod not_finite;
 #[path = "files_text/obj_comments.rs"]
 mod obj_comments;
 #[path = "files_text/obj_materials.rs"]

@@ -29,6 +29,7 @@ mod gltf;
 mod links;
 mod locks;
 mod new_mesh;
+mod not_finite;
 mod note;
 mod obj;
 mod off;

@@ -4,8 +4,10 @@
 //! copied to look at it. A line ends with `\n`, `\r\n` or `\r`.
 
 use std::ops::Range;
+use std::str::FromStr;
 
 use super::decoded::note_floats;
+use super::not_finite;
 
 /// Whether `byte` separates tokens within a line.
 #[inline]
@@ -100,7 +102,10 @@ impl Iterator for Tokens<'_> {
             at += 1;
         }
         let start = at;
-        while at < text.len() && !self.separates(at) && !(self.marks && text[at] == b'#') {
+        while at < text.len() && !self.separates(at) {
+            if self.marks && text[at] == b'#' && begins_comment(text, start, at) {
+                break;
+            }
             at += 1;
         }
         self.at = at;
@@ -137,16 +142,23 @@ pub(super) fn whole_number(token: &[u8]) -> Option<i64> {
     (length == token.len()).then_some(value)
 }
 
-/// The coordinate that `token` is; `nan` and `inf` are coordinates too.
+/// The coordinate that `token` is; `nan` and `inf` are coordinates too, in any spelling.
 #[inline]
 pub(super) fn coordinate(token: &[u8]) -> Option<f32> {
+    float(token)
+}
+
+/// A [`coordinate`] of 32 or of 64 bits.
+#[inline]
+pub(super) fn float<T: FromStr + From<f32>>(token: &[u8]) -> Option<T> {
     note_floats(1);
     parsed(token)
 }
 
 #[inline]
-fn parsed(token: &[u8]) -> Option<f32> {
-    std::str::from_utf8(token).ok()?.parse().ok()
+fn parsed<T: FromStr + From<f32>>(token: &[u8]) -> Option<T> {
+    let number = std::str::from_utf8(token).ok()?.parse().ok();
+    number.or_else(|| not_finite::parse(token).map(T::from))
 }
 
 /// Whether `token` is a [`coordinate`]; the usual ones are told without working out the number.
@@ -170,7 +182,31 @@ pub(super) fn is_coordinate(token: &[u8]) -> bool {
         at += 1 + sign + exponent;
         found = exponent;
     }
-    (found > 0 && at == token.len()) || parsed(token).is_some()
+    (found > 0 && at == token.len()) || parsed::<f32>(token).is_some()
+}
+
+/// Whether the `#` at `at`, in or after the token that starts at `start`, begins a comment.
+#[inline]
+pub(super) fn begins_comment(text: &[u8], start: usize, at: usize) -> bool {
+    // As in 1.#IND; a word that starts otherwise is not looked at.
+    let is_looked_at = matches!(text.get(start), Some(b'1' | b'-' | b'+'));
+    !(is_looked_at && at > start && not_finite::has_mark(text, start, at))
+}
+
+/// Where the first comment of a line starts, whose text is `start..end`.
+#[inline]
+pub(super) fn comment_start(text: &[u8], start: usize, end: usize) -> Option<usize> {
+    let line = &text[start..end];
+    // Most have none.
+    if !line.contains(&b'#') {
+        return None;
+    }
+    let mut marks = line.iter().enumerate().filter(|&(_, &b)| b == b'#');
+    let found = marks.find(|&(at, _)| {
+        let blank = line[..at].iter().rposition(|&b| is_blank(b));
+        begins_comment(&text[..end], start + blank.map_or(0, |b| b + 1), start + at)
+    });
+    found.map(|(at, _)| start + at)
 }
 
 /// Appends `number` in decimal digits.
@@ -214,6 +250,23 @@ mod tests {
         let text = b"f 1\\\r\n 2 3# 4";
         let tokens: Vec<&[u8]> = Tokens::of_statement(text, 0).map(|t| &text[t]).collect();
         assert_eq!(tokens, [b"f" as &[u8], b"1", b"2", b"3"]);
+        // A # within a number does not end it.
+        let text = b"v -1.#IND 1.#INF00#c 1.#IND";
+        let tokens: Vec<&[u8]> = Tokens::of_statement(text, 0).map(|t| &text[t]).collect();
+        assert_eq!(tokens, [b"v" as &[u8], b"-1.#IND", b"1.#INF00"]);
+    }
+
+    #[test]
+    fn a_comment_starts_outside_numbers() {
+        for (text, expected) in [
+            ("1.#IND 0 # c", Some(9)),
+            ("0 -1.#INF#c", Some(9)),
+            ("1.#IND", None),
+            ("#1", Some(0)),
+            ("1.#x", Some(2)),
+        ] {
+            assert_eq!(comment_start(text.as_bytes(), 0, text.len()), expected);
+        }
     }
 
     #[test]
@@ -247,6 +300,10 @@ mod tests {
             "0.00000000000000000001e-50",
             "1e+-3",
             "1f",
+            "-nan(ind)",
+            "1.#QNAN",
+            "-1.#INF00",
+            "1.#X",
         ] {
             let token = token.as_bytes();
             assert_eq!(is_coordinate(token), coordinate(token).is_some());

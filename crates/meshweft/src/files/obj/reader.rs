@@ -10,8 +10,8 @@ use crate::files::error::Fault;
 use crate::files::face_records::{FaceRecords, check_vertex_count, past_the_last_vertex};
 use crate::files::options::ReadOptions;
 use crate::files::slots::Spans;
-use crate::files::text::is_coordinate;
 use crate::files::text::{Tokens, is_blank, leading_number, shown, trimmed};
+use crate::files::text::{comment_start, is_coordinate};
 use crate::index::index32;
 
 /// The statements of a file, read one after the other.
@@ -184,7 +184,8 @@ impl<'a> ObjReader<'a> {
         self.vertex_numbers = (fewest.min(numbers), most.max(numbers));
 
         let record = &self.source[span.clone()];
-        if record.ends_with(b"\\") && !record.contains(&b'#') {
+        let is_commented = || comment_start(self.source, span.start, span.end).is_some();
+        if record.ends_with(b"\\") && !is_commented() {
             // Before another line end it would swallow the line after it.
             let text = "a \\ at the end that is not followed by a line end: remove it";
             return Err(Fault::malformed(span.start, text));

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::files::text::{is_blank, is_line_end, leading_number, line_end, trimmed};
+use crate::files::text::{comment_start, is_blank, is_line_end, leading_number, line_end, trimmed};
 
 /// Where each statement of a file stands.
 pub(super) struct Statements<'a> {
@@ -70,7 +70,7 @@ fn statement_span(source: &[u8], start: usize) -> (Range<usize>, usize) {
     let mut from = start;
     loop {
         let end = line_end(source, from);
-        let is_commented = source[from..end].contains(&b'#');
+        let is_commented = comment_start(source, from, end).is_some();
         if end == source.len() || source[end - 1] != b'\\' || is_commented {
             let mut span = trimmed(source, start, end);
             let continues = |span: &Range<usize>| {

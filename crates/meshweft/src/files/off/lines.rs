@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use crate::files::error::{FileErrorKind, Place, Problem};
-use crate::files::text::{Tokens, is_blank, is_line_end, line_end, line_of, trimmed};
+use crate::files::text::{
+    Tokens, comment_start, is_blank, is_line_end, line_end, line_of, trimmed,
+};
 
 /// The lines that hold something, without their comments.
 pub(super) struct Lines<'a> {
@@ -20,9 +22,8 @@ impl<'a> Lines<'a> {
                 continue;
             }
             let end = line_end(self.text, self.at);
-            let line = &self.text[self.at..end];
-            let content = line.iter().position(|&b| b == b'#').unwrap_or(line.len());
-            let span = trimmed(self.text, self.at, self.at + content);
+            let content = comment_start(self.text, self.at, end).unwrap_or(end);
+            let span = trimmed(self.text, self.at, content);
             self.at = end;
             if !span.is_empty() {
                 return Some(span);

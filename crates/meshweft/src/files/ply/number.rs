@@ -2,7 +2,7 @@
 
 use crate::attribute::Values;
 use crate::files::decoded::note_floats;
-use crate::files::text::{coordinate, whole_number};
+use crate::files::text::{float, whole_number};
 
 /// A type that values are read as. It holds every number of the type that the file declares.
 pub(super) trait PlyNumber: Copy + Default {
@@ -55,7 +55,7 @@ whole!(u32, U32, "a whole number of 32 bits without a sign");
 impl PlyNumber for f32 {
     const KIND: &'static str = "a number";
     fn of_token(token: &[u8]) -> Option<Self> {
-        coordinate(token)
+        float(token)
     }
     #[expect(clippy::cast_precision_loss, reason = "at most 16 bits, see `Column`")]
     fn of_whole(number: i64) -> Self {
@@ -78,8 +78,7 @@ impl PlyNumber for f32 {
 impl PlyNumber for f64 {
     const KIND: &'static str = "a number";
     fn of_token(token: &[u8]) -> Option<Self> {
-        note_floats(1);
-        std::str::from_utf8(token).ok()?.parse().ok()
+        float(token)
     }
     #[expect(clippy::cast_precision_loss, reason = "at most 32 bits")]
     fn of_whole(number: i64) -> Self {

@@ -1,11 +1,11 @@
 //! The tokens of VRML97: words, strings, brackets.
 //!
-//! Commas are white space, and `#` begins a comment outside strings.
+//! Commas are white space, and `#` begins a comment outside strings (and numbers such as `1.#INF`).
 
 use std::ops::Range;
 
 use crate::files::error::{Fault, FileErrorKind};
-use crate::files::text::{is_line_end, line_end, whole_number};
+use crate::files::text::{begins_comment, is_line_end, line_end, whole_number};
 
 /// A token and where it stands.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,8 +71,12 @@ impl<'a> Lexer<'a> {
     pub(super) fn word(&mut self) -> Option<Range<usize>> {
         self.skip()?;
         let rest = &self.text[self.at..];
-        let length = rest.iter().position(|&byte| ends_word(byte));
-        let length = length.unwrap_or(rest.len());
+        // A # may be part of a number.
+        let ends = |&(at, &byte): &(usize, &u8)| {
+            ends_word(byte) && (byte != b'#' || begins_comment(rest, 0, at))
+        };
+        let length = rest.iter().enumerate().find(ends);
+        let length = length.map_or(rest.len(), |(at, _)| at);
         let span = self.at..self.at + length;
         self.at = span.end;
         (length > 0).then_some(span)
@@ -151,6 +155,10 @@ mod tests {
         let text = "a,b#c { \" \r\nd[\"e\\\"#{\"-1]f{}# end";
         let expected = ["a", "b", "d", "[", "\"e\\\"#{\"", "-1", "]", "f", "{", "}"];
         assert_eq!(tokens(text), expected);
+        assert_eq!(
+            tokens("[-1.#IND 0 1.#INF,1.#x"),
+            ["[", "-1.#IND", "0", "1.#INF", "1."]
+        );
         for open in ["\"", "x \"a\\", "\"a\\\""] {
             let mut lexer = Lexer::new(open.as_bytes(), 0);
             assert!((0..3).any(|_| lexer.token().is_err()), "{open}");
