@@ -10,6 +10,8 @@ mod data;
 mod errors;
 #[path = "files_text/follow.rs"]
 mod follow;
+#[path = "files_text/free_off.rs"]
+mod free_off;
 #[path = "files_text/not_finite.rs"]
 mod not_finite;
 #[path = "files_text/obj_comments.rs"]
@@ -22,6 +24,8 @@ mod obj_runs;
 mod obj_values;
 #[path = "files_text/off_attributes.rs"]
 mod off_attributes;
+#[path = "files_text/others.rs"]
+mod others;
 #[path = "files_text/ply_values.rs"]
 mod ply_values;
 #[path = "files_random/mod.rs"]

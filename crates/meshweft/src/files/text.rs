@@ -51,6 +51,15 @@ pub(super) fn trimmed(text: &[u8], start: usize, end: usize) -> Range<usize> {
     start..start + length.map_or(0, |last| last + 1)
 }
 
+/// Where a text ends: before the zero bytes that fill its last block, or the Ctrl-Z that ended it once.
+pub(super) fn content_end(text: &[u8]) -> usize {
+    let is_filling = |&byte: &u8| matches!(byte, 0 | 0x1a);
+    let is_content = |byte: &u8| !is_filling(byte) && !is_blank(*byte) && !is_line_end(*byte);
+    let from = text.iter().rposition(is_content).map_or(0, |last| last + 1);
+    let filling = text[from..].iter().position(is_filling);
+    filling.map_or(text.len(), |first| from + first)
+}
+
 /// The tokens of a stretch of text, as spans; line ends separate them as blanks do.
 #[derive(Debug, Clone)]
 pub(super) struct Tokens<'a> {
@@ -254,6 +263,19 @@ mod tests {
         let text = b"v -1.#IND 1.#INF00#c 1.#IND";
         let tokens: Vec<&[u8]> = Tokens::of_statement(text, 0).map(|t| &text[t]).collect();
         assert_eq!(tokens, [b"v" as &[u8], b"-1.#IND", b"1.#INF00"]);
+    }
+
+    #[test]
+    fn what_fills_the_last_block_is_no_text() {
+        for (text, end) in [
+            (&b"a\0b \r\n\0\0\n\0"[..], 6),
+            (b"a\n\x1a", 2),
+            (b"a \n", 3),
+            (b"\0", 0),
+            (b"", 0),
+        ] {
+            assert_eq!(content_end(text), end);
+        }
     }
 
     #[test]

@@ -54,10 +54,12 @@ fn a_broken_file_says_what_where_and_what_to_do() {
         ("solid x\n".into(), off, "line 1: \"solid\" where an OFF file has the word OFF: is it another format?".into()),
         ("OFF BINARY\n".into(), off, "line 1: binary OFF is not read. Convert it to ascii OFF or to PLY first".into()),
         ("OFF\n-4 2 0\n".into(), off, "line 2: the number of vertices is \"-4\", which is not a count".into()),
-        ("OFF\n1 1 0 0 0 0\n3 0 0 0\n".into(), off, "line 2: after the counts of vertices, faces and edges a new line must begin".into()),
+        ("OFF\n1 1 0.5 0 0\n3 0 0 0\n".into(), off, "line 2: after the counts of vertices and faces comes that of edges, or a new line".into()),
         ("OFF\n2 1 0\n0 0 0\n0 0\n".into(), off, "line 4: vertex 1 has 2 numbers on its line and needs 3".into()),
         ("OFF\n2 1 0\n0 0 0\n".into(), off, format!("line 4: the file ends inside vertex 1 of 2. {cut}")),
-        ("OFF\n1 1 0\n0 0 0\n3 0 0\n".into(), off, "line 4: face 0 has 2 corners on its line, not the 3 it says".into()),
+        ("OFF\n1 1 0\n0 0 0\n3 0 0\n".into(), off, format!("line 5: the file ends inside face 0 of 1. {cut}")),
+        ("OFF\n1 3 0\n0 0 0\n3 0 0 0\n3 0 0\n3 0 0 0\n".into(), off, "line 5: face 1 has 2 corners on its line, not the 3 it says".into()),
+        ("OFFx 1 1\n".into(), off, "line 1: \"OFFx\" where an OFF file has the word OFF: is it another format?".into()),
         ("OFF\n1 1 0\n0 0 0\n3 0 -1 0\n".into(), off, "line 4: face 0, corner 1: index -1 is below zero".to_string()),
         ("OFF\n1 1 0\n0 0 0\n3 0 1X 0\n".into(), off, "line 4: face 0, corner 1: \"1X\" is not a vertex number".into()),
         (String::new(), ply, "line 1: a PLY file starts with the word ply: is it another format?".into()),
@@ -125,6 +127,18 @@ pub(super) fn small_files() -> Vec<(Vec<u8>, Format)> {
         (binary_ply(false, "int", true, ""), Format::Ply),
         (binary_ply(true, "uchar", false, lists), Format::Ply),
         (off.into(), Format::Off),
+        (
+            b"OFF 4 3 0 0 0 0 1 0 0\n0 1 0 2 2 2 3 0 1 2 3 2\n1 0 3 3 2 1".into(),
+            Format::Off,
+        ),
+        (
+            b"COFF\n2\n3\n0\n0 0\n0 1 1 1 1 1\n0 0 0 0 0 1\n3\n0 1 # c\n0 9\n2 0 1\n1 1\n".into(),
+            Format::Off,
+        ),
+        (
+            b"OFF3 2 0\n0 0 0 1 0 0\n0 1 0\n3 0 1 2\n4 2 1 0 1 1 0 0\n".into(),
+            Format::Off,
+        ),
         (ASCII.into(), Format::Stl),
         (binary("solid", 4, b"tail"), Format::Stl),
     ]

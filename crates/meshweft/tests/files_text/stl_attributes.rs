@@ -84,13 +84,18 @@ fn numbers_of_binary_follow_their_facets() {
 
 #[test]
 fn a_normal_that_is_no_number_is_told_when_it_is_read() {
+    // That of a facet without an area is one.
     let document = open(ASCII.as_bytes(), Format::Stl);
+    let normals = document.attribute(0, &normal()).unwrap().to_f32();
+    assert!(normals[5].is_nan());
+    let text = ASCII.replace("-1.#IND", "-1.#UP");
+    let document = open(text.as_bytes(), Format::Stl);
     assert!(document.attribute(0, &position()).is_ok());
     let error = document.attribute(0, &normal()).unwrap_err();
     assert_eq!(error.place, Place::Line(9));
     assert_eq!(
         error.to_string(),
-        "mesh.stl: line 9: facet 1: \"-1.#IND\" is not part of a normal: write a number. Fix it \
+        "mesh.stl: line 9: facet 1: \"-1.#UP\" is not part of a normal: write a number. Fix it \
          there, or re-export the file"
     );
     let error = document.attribute(0, &bytes()).unwrap_err();

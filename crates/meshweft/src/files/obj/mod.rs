@@ -64,7 +64,7 @@ use crate::files::options::ReadOptions;
 use crate::files::orders::RecordOrders;
 use crate::files::record_file::RecordFile;
 use crate::files::surroundings::Surroundings;
-use crate::files::text::{line_of, shown};
+use crate::files::text::{content_end, line_of, shown};
 use materials::Materials;
 use notation::ObjNotation;
 use reader::ObjReader;
@@ -75,7 +75,7 @@ pub(super) fn read(
     surroundings: Surroundings<'_>,
     options: &ReadOptions,
 ) -> ReadResult {
-    let mut reader = ObjReader::new(&bytes, options);
+    let mut reader = ObjReader::new(&bytes[..content_end(&bytes)], options);
     reader
         .statements()
         .map_err(|fault| fault.on_its_line(&bytes))?;

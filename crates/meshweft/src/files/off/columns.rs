@@ -3,10 +3,11 @@
 use std::ops::Range;
 
 use super::header::OffHeader;
+use super::lines::FreeTokens;
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::rewrite::StoredMesh;
-use crate::files::text::{Tokens, coordinate, line_of, shown, whole_number};
+use crate::files::text::{coordinate, line_of, shown, whole_number};
 
 /// How many numbers stand where lines have colours, and of which kind.
 #[derive(Debug)]
@@ -204,7 +205,7 @@ impl OffColumn {
     }
 }
 
-/// A line of the file that holds a record.
+/// A stretch of the file that holds a record, one line as a rule.
 struct Line {
     what: &'static str,
     /// The number of the record.
@@ -213,7 +214,7 @@ struct Line {
 }
 
 impl Line {
-    fn tokens<'a>(&self, source: &'a [u8]) -> Tokens<'a> {
-        Tokens::plain(&source[..self.span.end], self.span.start)
+    fn tokens<'a>(&self, source: &'a [u8]) -> FreeTokens<'a> {
+        FreeTokens::new(&source[..self.span.end], self.span.start)
     }
 }

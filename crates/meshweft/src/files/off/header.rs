@@ -21,9 +21,15 @@ pub(super) struct OffHeader {
     pub(super) texture: usize,
     /// How many numbers a vertex line has at least.
     pub(super) vertex_numbers: usize,
+    /// Whether the number of edges is there.
+    pub(super) has_edges: bool,
+    /// Whether the counts end their line.
+    pub(super) ends_line: bool,
+    /// Where the records start.
+    pub(super) body: usize,
 }
 
-/// Reads the keyword and the counts.
+/// Reads the keyword and the counts. The number of edges may be missing where the counts end their line.
 pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader, Problem> {
     let text = lines.text;
     let mut tokens: Vec<Range<usize>> = Vec::new();
@@ -42,12 +48,16 @@ pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader
     let mut token = next(lines, "the header: an OFF file starts with the word OFF")?;
     let (mut dimension, mut normal, mut has_colours, mut texture) = (3, 0, false, 0);
     if whole_number(&text[token.clone()]).is_none() {
-        let keyword = Keyword::parse(&text[token.clone()]).ok_or_else(|| {
+        let (keyword, length) = Keyword::parse(&text[token.clone()]).ok_or_else(|| {
             let found = shown(&text[token.clone()]);
             let text = format!("{found} where an OFF file has the word OFF: is it another format?");
             lines.malformed(token.start, text)
         })?;
-        token = next(lines, "the header")?;
+        // The first count may stand right behind the word.
+        token = match token.start + length {
+            end if end < token.end => end..token.end,
+            _ => next(lines, "the header")?,
+        };
         if text[token.clone()].eq_ignore_ascii_case(b"BINARY") {
             let text = "binary OFF is not read. Convert it to ascii OFF or to PLY first";
             return Err(lines.problem(token.start, FileErrorKind::unsupported(text)));
@@ -72,13 +82,20 @@ pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader
     let token = next(lines, "the header")?;
     let face_count = count(lines, token, "number of faces")?;
 
-    // The number of edges is of no use here, and often wrong; but vertices cannot stand there.
-    if let Some(third) = tokens.get(used) {
-        let edges = whole_number(&text[third.clone()]);
-        if edges.is_none() || tokens.len() > used + 1 {
-            let text = "after the counts of vertices, faces and edges a new line must begin";
+    // The number of edges is of no use here, and often wrong.
+    let mut has_edges = true;
+    let (mut ends_line, mut body) = (true, lines.at);
+    match tokens.get(used..).unwrap_or_default() {
+        [] => match edges_alone(lines, vertex_count, vertex_numbers) {
+            Some(after) => body = after,
+            None => has_edges = false,
+        },
+        [third, ..] if whole_number(&text[third.clone()]).is_none() => {
+            let text = "after the counts of vertices and faces comes that of edges, or a new line";
             return Err(lines.malformed(third.start, text));
         }
+        [_] => {}
+        [_, first, ..] => (ends_line, body) = (false, first.start),
     }
 
     let checked = check_vertex_count(vertex_count, limits);
@@ -92,7 +109,22 @@ pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader
         has_colours,
         texture,
         vertex_numbers,
+        has_edges,
+        ends_line,
+        body,
     })
+}
+
+/// Where a line with nothing but the number of edges ends, if such a line comes next: one number alone
+/// is not a vertex.
+fn edges_alone(lines: &Lines<'_>, vertex_count: usize, vertex_numbers: usize) -> Option<usize> {
+    let mut ahead = lines.clone();
+    let line = ahead
+        .next()
+        .filter(|_| vertex_count > 0 && vertex_numbers > 1)?;
+    let mut tokens = lines.tokens(&line);
+    whole_number(&lines.text[tokens.next()?])?;
+    tokens.next().is_none().then_some(ahead.at)
 }
 
 /// A number of the header that counts something.
@@ -120,8 +152,15 @@ struct Keyword {
 }
 
 impl Keyword {
-    fn parse(token: &[u8]) -> Option<Self> {
-        let mut rest = token.strip_suffix(b"OFF")?;
+    /// The keyword that a token is, or starts with if a number follows; and its length.
+    fn parse(token: &[u8]) -> Option<(Self, usize)> {
+        let is_word = |word: &[u8]| word.eq_ignore_ascii_case(b"OFF");
+        let length = token.windows(3).position(is_word)? + 3;
+        let (word, count) = token.split_at(length);
+        if !count.is_empty() {
+            whole_number(count)?;
+        }
+        let mut rest = &word[..length - 3];
         let mut takes = |prefix: &[u8]| match rest.strip_prefix(prefix) {
             Some(after) => {
                 rest = after;
@@ -136,6 +175,6 @@ impl Keyword {
             is_homogeneous: takes(b"4"),
             names_dimension: takes(b"n"),
         };
-        rest.is_empty().then_some(keyword)
+        rest.is_empty().then_some((keyword, length))
     }
 }

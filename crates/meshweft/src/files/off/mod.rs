@@ -1,8 +1,19 @@
 //! Object File Format (Geomview), ascii: vertex lines and face lines move.
 //!
-//! One line is one record, as nearly every writer has it: the numbers after those that are needed
-//! (colours of faces, or what a program adds to a vertex) go along with their line. The keyword may
-//! be missing, the number of edges may be missing or wrong, as in many files that are around.
+//! The format is free: line ends are blanks, but for the colour of a face, which ends with its line. So
+//! a file is read by the first of these ways that reads all of it:
+//!
+//! 1. Each vertex has a line of its own, as nearly every writer has it. Each face starts on a line of its
+//!    own, goes on over as many as it needs, and ends with the line of its last corner. The numbers after
+//!    those that are needed (colours of faces, or what a program adds to a vertex) go along.
+//! 2. A vertex is as many numbers as the keyword says (with `C`, a colour of four), wherever lines end;
+//!    faces as before.
+//! 3. The same, and a face is its number of corners and the corners; nothing follows the last one.
+//!
+//! A comment within a record goes along with it, others stay. The keyword may be missing or stand right
+//! before the first count; the number of edges may be missing or wrong, as in many files that are around.
+//! Moved records must be read as they were: where the numbers of lines do not exclude an earlier way,
+//! everything stays where it is, with a note.
 //!
 //! Attributes, where the format leaves room:
 //!
@@ -18,47 +29,51 @@
 mod columns;
 mod header;
 mod lines;
-
-use std::ops::Range;
+mod records;
 
 use super::content::ReadResult;
 use super::entry::MeshEntry;
 use super::error::no_attribute;
 use super::error::{FileErrorKind, Place, Problem};
-use super::face_records::{FaceRecords, corner_vertex};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::RecordOrders;
 use super::record_file::RecordFile;
 use super::rewrite::{Notation, Rewrite, StoredMesh, vertex_from_zero};
 use super::slots::Spans;
-use super::text::is_coordinate;
-use super::text::{Tokens, shown, whole_number};
+use super::text::{content_end, whole_number};
 use crate::Mesh;
 use crate::attribute::{Attribute, AttributeInfo};
-use crate::limits::Limits;
-use columns::{ColourColumns, OffColumn};
-use header::OffHeader;
-use lines::Lines;
+use crate::index::index32;
+use columns::OffColumn;
+use lines::{FreeTokens, Lines};
+use records::{FaceLines, OffRecords};
 
 /// Reads an OFF file.
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     let limits = &options.limits;
+    let mark = b"\xef\xbb\xbf";
+    let text = &bytes[..content_end(&bytes)];
     let mut lines = Lines {
-        text: &bytes,
-        at: if bytes.starts_with(b"\xef\xbb\xbf") {
-            3
+        text,
+        at: if bytes.starts_with(mark) {
+            mark.len()
         } else {
             0
         },
     };
     let header = header::header(&mut lines, limits)?;
-    let (vertices, vertex_colours) = vertices(&mut lines, &header)?;
-    let FaceLines {
-        spans: faces,
-        records,
-        colours,
-    } = faces(&mut lines, &header, limits)?;
+    let OffRecords {
+        vertices,
+        vertex_colours,
+        faces:
+            FaceLines {
+                spans: faces,
+                records,
+                colours,
+            },
+        stays,
+    } = records::read(text, &header, limits)?;
 
     let (mut entries, mut notes) = (Vec::new(), Vec::new());
     if records.len() == 0 {
@@ -69,13 +84,22 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         entries.push(MeshEntry {
             name: "mesh".into(),
             mesh,
-            runs: vec![0],
+            // Where faces must stay, each is a run of its own.
+            runs: match stays {
+                true => (0..index32(faces.len())).collect(),
+                false => vec![0],
+            },
             vertex_group: 0,
-            faces_movable: true,
-            vertices_movable: true,
-            corners_turnable: records.polygons.is_none(),
+            faces_movable: !stays,
+            vertices_movable: !stays,
+            corners_turnable: !stays && records.polygons.is_none(),
             polygons: records.polygons,
         });
+        if stays {
+            let text = "the faces and vertices stay where they are: some share a line and others \
+                        go over several, so moved ones might be read as others. Write one on each line";
+            notes.push(Note::new(Place::File, text));
+        }
     }
 
     let file = RecordFile {
@@ -93,123 +117,6 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     Ok((Box::new(file), notes))
 }
 
-/// Finds the vertex lines, and what they have of colours.
-fn vertices(lines: &mut Lines<'_>, header: &OffHeader) -> Result<(Spans, ColourColumns), Problem> {
-    let mut spans = Spans::new();
-    let mut colours = ColourColumns::new();
-    let before_colours = header.dimension.saturating_add(header.normal);
-    let mut rest = Vec::new();
-    for vertex in 0..header.vertex_count {
-        let line = lines.next().ok_or_else(|| {
-            lines.truncated(format!("vertex {vertex} of {}", header.vertex_count))
-        })?;
-
-        let mut tokens = lines.tokens(&line);
-        let mut found = 0;
-        for token in tokens.by_ref().take(header.dimension.min(3)) {
-            let token = &lines.text[token];
-            if !is_coordinate(token) {
-                let text = format!("{} is not a coordinate: write a number", shown(token));
-                return Err(lines.malformed(line.start, format!("vertex {vertex}: {text}")));
-            }
-            found += 1;
-        }
-
-        if found < header.vertex_numbers {
-            found += tokens.take(header.vertex_numbers - found).count();
-        }
-        if found < header.vertex_numbers {
-            let needed = header.vertex_numbers;
-            let text =
-                format!("vertex {vertex} has {found} numbers on its line and needs {needed}");
-            return Err(lines.malformed(line.start, text));
-        }
-
-        if header.has_colours && colours.is_possible() {
-            rest.clear();
-            // One more than a colour of four, so that longer ones are seen.
-            let most = 5 + header.texture;
-            rest.extend(lines.tokens(&line).skip(before_colours).take(most));
-            rest.truncate(rest.len() - header.texture);
-            colours.add(lines.text, rest.drain(..));
-        }
-
-        let at = line.start;
-        spans.push(line).map_err(|kind| lines.problem(at, kind))?;
-    }
-    Ok((spans, colours))
-}
-
-/// What the face lines hold.
-struct FaceLines {
-    spans: Spans,
-    records: FaceRecords,
-    colours: ColourColumns,
-}
-
-fn faces(lines: &mut Lines<'_>, header: &OffHeader, limits: &Limits) -> Result<FaceLines, Problem> {
-    let mut spans = Spans::new();
-    let mut records = FaceRecords::default();
-    let mut colours = ColourColumns::new();
-    // In text each number has something after it.
-    let left = lines.text.len() - lines.at;
-    records.reserve(lines.at_most(header.face_count, 2), left / 2);
-    let mut corners = Vec::new();
-    for face in 0..header.face_count {
-        let line = lines
-            .next()
-            .ok_or_else(|| lines.truncated(format!("face {face} of {}", header.face_count)))?;
-        let rest = face_corners(lines, &line, face, header.vertex_count, &mut corners)?;
-        colours.add(lines.text, rest);
-        let at = line.start;
-        let pushed = records.push(&corners, limits);
-        let pushed = pushed.and_then(|()| spans.push(line));
-        pushed.map_err(|kind| lines.problem(at, kind))?;
-    }
-    Ok(FaceLines {
-        spans,
-        records,
-        colours,
-    })
-}
-
-/// Reads the corners of one face line; gives what follows them.
-fn face_corners<'a>(
-    lines: &Lines<'a>,
-    line: &Range<usize>,
-    face: usize,
-    vertex_count: usize,
-    corners: &mut Vec<u32>,
-) -> Result<Tokens<'a>, Problem> {
-    let malformed = |text: String| lines.malformed(line.start, format!("face {face}{text}"));
-    corners.clear();
-    let mut tokens = lines.tokens(line);
-
-    let promised = tokens.next().unwrap_or(line.start..line.start);
-    let promised = &lines.text[promised];
-    let corner_count = whole_number(promised).and_then(|n| usize::try_from(n).ok());
-    let corner_count = corner_count
-        .ok_or_else(|| malformed(format!(": {} is not a number of corners", shown(promised))))?;
-
-    for corner in 0..corner_count {
-        let token = tokens.next().ok_or_else(|| {
-            malformed(format!(
-                " has {corner} corners on its line, not the {corner_count} it says"
-            ))
-        })?;
-        let token = &lines.text[token];
-        let number = whole_number(token).ok_or_else(|| {
-            malformed(format!(
-                ", corner {corner}: {} is not a vertex number",
-                shown(token)
-            ))
-        })?;
-        let vertex = corner_vertex(number, vertex_count, face, corner);
-        corners.push(vertex.map_err(|kind| lines.problem(line.start, kind))?);
-    }
-    Ok(tokens)
-}
-
 /// How corners stand in face lines: after their number. And what else lines hold.
 struct OffNotation {
     columns: Vec<OffColumn>,
@@ -217,7 +124,7 @@ struct OffNotation {
 
 impl Notation for OffNotation {
     fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>) {
-        let mut tokens = Tokens::plain(record, 0);
+        let mut tokens = FreeTokens::new(record, 0);
         let corner_count = tokens.next().and_then(|token| whole_number(&record[token]));
         let corner_count = corner_count.and_then(|n| usize::try_from(n).ok());
         rewrite.corners.clear();

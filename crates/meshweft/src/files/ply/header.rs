@@ -2,6 +2,7 @@
 
 use crate::attribute::ComponentType;
 use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::note::Note;
 use crate::files::text::{is_blank, is_line_end, line_of, shown, whole_number};
 
 /// How the rows are stored.
@@ -113,6 +114,9 @@ impl Element {
 pub(super) struct PlyHeader {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
+    /// The first line that is not of a PLY header, and how many follow it before the first element.
+    /// Blender 2.4 wrote "Created by Blender3D …" without the word `comment`.
+    pub(super) foreign: Option<Note>,
     /// Where the rows start.
     pub(super) body: usize,
 }
@@ -147,6 +151,7 @@ pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
 
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
+    let mut foreign: Option<Note> = None;
     let mut at = 0;
     while at < source.len() {
         let start = at;
@@ -159,7 +164,10 @@ pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
             .split(|&b| is_blank(b) || is_line_end(b))
             .filter(|w| !w.is_empty());
         match words.next().unwrap_or_default() {
-            b"ply" | b"comment" | b"obj_info" | b"" => {}
+            b"ply" | b"" => {}
+            word if [&b"comment"[..], b"obj_info"]
+                .iter()
+                .any(|c| word.eq_ignore_ascii_case(c)) => {}
             b"format" => {
                 let word = words.next().unwrap_or_default();
                 encoding = Some(parse_encoding(word).map_err(|text| malformed(start, text))?);
@@ -191,9 +199,15 @@ pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
                 return Ok(PlyHeader {
                     encoding,
                     elements,
+                    foreign,
                     body: at,
                 });
             }
+            // Where no element is declared yet, no line can be about one.
+            _ if elements.is_empty() => match &mut foreign {
+                Some(first) => first.more += 1,
+                None => foreign = Some(foreign_line(line_of(source, start), line)),
+            },
             other => {
                 let text = format!("{} is not a word of a PLY header", shown(other));
                 return Err(malformed(start, text));
@@ -203,6 +217,13 @@ pub(super) fn read(source: &[u8]) -> Result<PlyHeader, Problem> {
 
     let what = "the header: there is no end_header";
     Err(FileErrorKind::truncated(what).at(Place::Line(line_of(source, source.len()))))
+}
+
+/// What there is to say about a line that is not of a PLY header.
+fn foreign_line(number: usize, line: &[u8]) -> Note {
+    let line = shown(line.trim_ascii());
+    let text = format!("the header line {line} is not of PLY: taken for a comment");
+    Note::new(Place::Line(number), text)
 }
 
 /// What a `format` line says.

@@ -107,7 +107,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
 }
 
 fn finish(bytes: Vec<u8>, header: PlyHeader, plan: Plan, body: Body) -> ReadResult {
-    let mut notes = Vec::new();
+    let mut notes: Vec<Note> = header.foreign.iter().cloned().collect();
     let mut entries = Vec::new();
     let record_count = body.records.len();
     if record_count == 0 {

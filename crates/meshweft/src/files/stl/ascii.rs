@@ -1,6 +1,8 @@
 //! Ascii STL: `facet` to `endfacet` is a record, `solid` to `endsolid` a run.
 //!
-//! Keywords are read in any case and words may stand on any lines; only a name ends with its line.
+//! Keywords are read in any case and words may stand on any lines; only a name ends with its line. There
+//! may be a blank within `endsolid`, `endloop` and `endfacet`. Zero bytes that fill the last block of the
+//! file are not part of its text.
 
 use std::ops::Range;
 
@@ -13,7 +15,7 @@ use crate::files::face_records::check_face_count;
 use crate::files::rewrite::{Notation, PlacedFace, Rewrite, StoredMesh};
 use crate::files::slots::Spans;
 use crate::files::text::{
-    Tokens, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
+    Tokens, content_end, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
 };
 use crate::index::index32;
 use crate::limits::Limits;
@@ -29,6 +31,7 @@ pub(super) fn start(bytes: &[u8]) -> Option<usize> {
 }
 
 pub(super) fn read(text: &[u8], at: usize, limits: &Limits) -> Result<Facets, Problem> {
+    let text = &text[..content_end(text)];
     let mut reader = AsciiStlReader {
         text,
         tokens: Tokens::plain(text, at),
@@ -79,7 +82,7 @@ impl AsciiStlReader<'_> {
         let first = self.corners.len();
         loop {
             let token = self.next(|| format!("solid {number}: there is no endsolid"))?;
-            if self.text[token.clone()].eq_ignore_ascii_case(b"endsolid") {
+            if self.is_end(&token, b"solid") {
                 self.rest_of_line();
                 return Ok(());
             }
@@ -131,8 +134,8 @@ impl AsciiStlReader<'_> {
             }
         }
 
-        self.word(b"endloop")?;
-        self.word(b"endfacet")?;
+        self.end_word(b"loop", b"endloop")?;
+        self.end_word(b"facet", b"endfacet")?;
         let pushed = self.spans.push(start..self.tokens.at());
         pushed.map_err(|kind| self.problem(start, kind))?;
         self.corners.push(corners);
@@ -163,6 +166,33 @@ impl AsciiStlReader<'_> {
         let token = self.next_of_facet()?;
         let facet = self.corners.len();
         self.is_word(&token, word, || format!("{} of facet {facet}", shown(word)))
+    }
+
+    /// Reads the keyword of a facet that ends `what`, in one word or in two.
+    fn end_word(&mut self, what: &[u8], word: &[u8]) -> Result<(), Problem> {
+        let token = self.next_of_facet()?;
+        if self.is_end(&token, what) {
+            return Ok(());
+        }
+        let facet = self.corners.len();
+        self.is_word(&token, word, || format!("{} of facet {facet}", shown(word)))
+    }
+
+    /// Whether `token` is `end` and what ends, in one word or in two; the second one is read then.
+    fn is_end(&mut self, token: &Range<usize>, what: &[u8]) -> bool {
+        let Some((end, rest)) = self.text[token.clone()].split_at_checked(3) else {
+            return false;
+        };
+        if !end.eq_ignore_ascii_case(b"end") || !rest.is_empty() {
+            return end.eq_ignore_ascii_case(b"end") && rest.eq_ignore_ascii_case(what);
+        }
+        let mut ahead = self.tokens.clone();
+        let second = ahead.next().map(|token| &self.text[token]);
+        let is_end = second.is_some_and(|word| word.eq_ignore_ascii_case(what));
+        if is_end {
+            self.tokens = ahead;
+        }
+        is_end
     }
 
     /// An error if `token` is not `word`; `expected` says what should be there.

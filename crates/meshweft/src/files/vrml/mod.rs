@@ -44,7 +44,7 @@ use super::placing::Placed;
 use super::rewrite::{Change, Rewrite};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
-use super::text::is_line_end;
+use super::text::{content_end, is_line_end};
 use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::permutation::{FaceOrder, VertexOrder};
 use attributes::{RoleValues, ValueReader};
@@ -58,7 +58,8 @@ use lexer::{Lexer, index};
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     let limits = &options.limits;
     let at = header(&bytes)?;
-    let scene = nodes::read(&bytes, at, limits).map_err(|fault| fault.on_its_line(&bytes))?;
+    let text = &bytes[..content_end(&bytes)];
+    let scene = nodes::read(text, at, limits).map_err(|fault| fault.on_its_line(&bytes))?;
     let mut binder = Binder {
         text: &bytes,
         scene: &scene,
