@@ -23,8 +23,9 @@ use crate::usage::Usage;
 pub(crate) struct Optimize {
     /// Files, folders with files, or patterns such as 'assets/**/*.glb'
     ///
-    /// .gltf, .glb, .obj, .ply, .off, .stl, .wrl or .vrml, optionally followed by .gz. A folder
-    /// stands for every such file in it and in the folders below it.
+    /// .gltf, .glb, .vrm, .obj, .ply, .off, .stl, .wrl or .vrml, optionally followed by .gz. A folder
+    /// stands for every such file in it and in the folders below it. What a file is, its first bytes
+    /// decide where they are sure; one that is named alone may be called anything.
     #[arg(required = true, value_name = "IN")]
     inputs: Vec<PathBuf>,
     #[command(flatten)]

@@ -1,6 +1,7 @@
 //! The disk: files are read within limits, and written under a temporary name that is then renamed.
 //!
-//! A name that ends in `.gz` stands for a compressed file, on the way in and on the way out.
+//! A name that ends in `.gz` stands for a compressed file, on the way in and on the way out. A main file
+//! is compressed if its first bytes say so.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -25,6 +26,17 @@ pub fn is_gzip(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
 }
 
+/// Whether a file holds gzip data, whatever it is called. What is not a file, but for example a pipe, is
+/// not looked into: its name says it.
+pub(super) fn holds_gzip(path: &Path) -> io::Result<bool> {
+    if !fs::metadata(path)?.is_file() {
+        return Ok(is_gzip(path));
+    }
+    let mut start = Vec::new();
+    fs::File::open(path)?.take(2).read_to_end(&mut start)?;
+    Ok(start == b"\x1f\x8b")
+}
+
 /// What a file holds, on the disk or in memory.
 pub(super) struct Stored {
     /// Its bytes, decompressed.
@@ -37,12 +49,11 @@ pub(super) struct Stored {
     pub(super) stamp: Option<Stamp>,
 }
 
-/// The bytes of a file, or what they decompress to if its name ends in `.gz`; and its size on the
-/// disk.
-fn source(path: &Path) -> io::Result<(Box<dyn Read>, u64)> {
+/// The bytes of a file, or what they decompress to; and its size on the disk.
+fn source(path: &Path, is_gzip: bool) -> io::Result<(Box<dyn Read>, u64)> {
     let file = fs::File::open(path)?;
     let size = file.metadata()?.len();
-    Ok(match is_gzip(path) {
+    Ok(match is_gzip {
         true => (
             Box::new(MultiGzDecoder::new(io::BufReader::new(file))),
             size,
@@ -51,14 +62,30 @@ fn source(path: &Path) -> io::Result<(Box<dyn Read>, u64)> {
     })
 }
 
-/// The start of a file, up to the length that `length` finds in its first bytes.
+/// What compresses files. No time stamp is in the header: the same bytes in give the same bytes out.
+pub(super) fn gzip_encoder<W: io::Write>(sink: W) -> GzEncoder<W> {
+    GzEncoder::new(sink, Compression::default())
+}
+
+/// The start of a file, decompressed if its name ends in `.gz`, up to the length that `length` finds in its
+/// first bytes.
 pub(super) fn read_start(
     path: &Path,
     limits: &Limits,
     length: impl Fn(&[u8]) -> u64,
 ) -> Result<Vec<u8>, FileErrorKind> {
+    read_start_as(path, is_gzip(path), limits, length)
+}
+
+/// As [`read_start`], decompressed if it is `is_gzip`.
+pub(super) fn read_start_as(
+    path: &Path,
+    is_gzip: bool,
+    limits: &Limits,
+    length: impl Fn(&[u8]) -> u64,
+) -> Result<Vec<u8>, FileErrorKind> {
     const FIRST: u64 = 64;
-    let (mut source, _) = source(path).map_err(FileErrorKind::Io)?;
+    let (mut source, _) = source(path, is_gzip).map_err(FileErrorKind::Io)?;
     let mut bytes = Vec::new();
     let mut read = |bytes: &mut Vec<u8>, limit: u64| {
         let left = limit.saturating_sub(bytes.len() as u64);
@@ -72,13 +99,22 @@ pub(super) fn read_start(
 
 /// What a file holds, decompressed if its name ends in `.gz`.
 pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Stored, FileErrorKind> {
+    read_as(path, is_gzip(path), limits)
+}
+
+/// What a file holds, decompressed if it is `is_gzip`.
+pub(super) fn read_as(
+    path: &Path,
+    is_gzip: bool,
+    limits: &Limits,
+) -> Result<Stored, FileErrorKind> {
     let stamp = Stamp::of(path);
-    let (mut source, size) = source(path).map_err(FileErrorKind::Io)?;
+    let (mut source, size) = source(path, is_gzip).map_err(FileErrorKind::Io)?;
     let limit = limits.file_bytes;
 
     // Room for the whole file at once, and for the look whether anything follows; how much comes
     // out of a compressed one is not known.
-    let expected = if is_gzip(path) { 0 } else { size };
+    let expected = if is_gzip { 0 } else { size };
     let room = usize::try_from(expected.min(limit)).unwrap_or(0);
     let mut bytes = Vec::with_capacity(room + 1);
 
@@ -86,16 +122,14 @@ pub(super) fn read_limited(path: &Path, limits: &Limits) -> Result<Stored, FileE
         .by_ref()
         .take(limit.saturating_add(1))
         .read_to_end(&mut bytes);
-    let found = read.map_err(
-        |error| match is_gzip(path) && error.raw_os_error().is_none() {
-            // Not the system but the decompressor.
-            true => FileErrorKind::malformed(format!(
-                "the compressed data is damaged after {} bytes of content ({error})",
-                bytes.len()
-            )),
-            false => FileErrorKind::Io(error),
-        },
-    )? as u64;
+    let found = read.map_err(|error| match is_gzip && error.raw_os_error().is_none() {
+        // Not the system but the decompressor.
+        true => FileErrorKind::malformed(format!(
+            "the compressed data is damaged after {} bytes of content ({error})",
+            bytes.len()
+        )),
+        false => FileErrorKind::Io(error),
+    })? as u64;
 
     match found > limit {
         true => Err(FileErrorKind::OverLimit {
@@ -205,7 +239,7 @@ pub(super) fn holds(path: &Path, bytes: &[u8]) -> io::Result<bool> {
     if !fs::metadata(path)?.is_file() {
         return Ok(false);
     }
-    let (mut source, size) = source(path)?;
+    let (mut source, size) = source(path, is_gzip(path))?;
     if !is_gzip(path) && size != bytes.len() as u64 {
         return Ok(false);
     }
@@ -357,8 +391,7 @@ impl Temporary {
     fn new(output: &OutputFile<'_>, is_synced: bool) -> io::Result<Self> {
         let mut new = Self::empty(&output.path)?;
         if is_gzip(&new.target) {
-            // No time stamp in the header: the same bytes in give the same bytes out.
-            let mut encoder = GzEncoder::new(&mut new.file, Compression::default());
+            let mut encoder = gzip_encoder(&mut new.file);
             (output.write)(&mut encoder)?;
             encoder.finish()?;
         } else {

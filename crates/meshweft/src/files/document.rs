@@ -1,10 +1,11 @@
 //! A file in memory: its meshes as values, its bytes ready to be patched.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use super::content::Content;
-use super::disk::read_limited;
+use super::disk::{holds_gzip, is_gzip, read_as, read_start_as};
 use super::edit::{Edit, check_order};
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
@@ -14,7 +15,7 @@ use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::surroundings::{Surroundings, check_size};
-use super::{gltf, obj, off, ply, stl, vrml};
+use super::{gltf, obj, off, ply, signature, stl, vrml};
 use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
 
 /// A mesh file whose faces and vertices can be permuted in place.
@@ -52,27 +53,46 @@ pub struct Document {
     pub(super) stamp: Option<Stamp>,
     /// The files that it has written itself.
     pub(super) own: Mutex<Vec<Stamp>>,
+    /// Whether the main file was compressed where it was read.
+    is_gzip: bool,
 }
 
 impl Document {
     /// Reads the file and everything it refers to that holds vertices or faces.
     ///
-    /// A name that ends in `.gz` is decompressed first.
+    /// Gzip data is decompressed first, whatever the name is. Where the bytes are surely of another format
+    /// than the name says, or the name says none, they decide.
     ///
     /// # Errors
     /// [`FileError`]: the file cannot be read, is of no known format, is not sound, or is over a
     /// limit.
     pub fn open(path: &Path, options: impl Into<ReadOptions>) -> Result<Self, FileError> {
         let options = options.into();
-        let format = Format::of_path(path);
-        let in_file = |kind: FileErrorKind| kind.at(Place::File).in_file(path, format);
-        let known = format.ok_or_else(|| in_file(FileErrorKind::UnknownFormat))?;
-        let stored = read_limited(path, &options.limits).map_err(in_file)?;
+        let named = Format::of_path(path);
+        let in_file = |kind: FileErrorKind| kind.at(Place::File).in_file(path, named);
+        let holds_gzip = holds_gzip(path).map_err(|error| in_file(FileErrorKind::Io(error)))?;
+
+        if is_gzip(path) && !holds_gzip {
+            return Err(in_file(not_compressed()));
+        }
+
+        // Nothing large is read to find that it is not known.
+        if named.is_none() {
+            let start = read_start_as(path, holds_gzip, &options.limits, |_| signature::START);
+            let length = fs::metadata(path).ok().filter(|_| !holds_gzip);
+            let length = length.map_or(u64::MAX, |data| data.len());
+            let checked = start.and_then(|start| signature::check_start(&start, length));
+            checked.map_err(in_file)?;
+        }
+
+        let stored = read_as(path, holds_gzip, &options.limits).map_err(in_file)?;
+        let format = signature::format_of(named, &stored.bytes).map_err(in_file)?;
 
         let surroundings = Surroundings::Folder(folder_of(path));
-        let mut document = Self::from_bytes_in(stored.bytes, known, path, surroundings, options)?;
+        let mut document = Self::from_bytes_in(stored.bytes, format, path, surroundings, options)?;
         document.main_size = stored.size;
         document.stamp = stored.stamp;
+        document.is_gzip = holds_gzip;
         Ok(document)
     }
 
@@ -114,6 +134,7 @@ impl Document {
         let main_size = check_size(&bytes, &options.limits);
         let main_size = main_size.map_err(|kind| in_file(kind.at(Place::File)))?;
 
+        signature::check(format, &bytes).map_err(|kind| in_file(kind.at(Place::File)))?;
         let read = match format {
             Format::Gltf | Format::Glb => gltf::read(bytes, format, name, surroundings, options),
             Format::Obj => obj::read(bytes, surroundings, options),
@@ -134,6 +155,7 @@ impl Document {
             is_edited: options.strips_to_lists,
             stamp: None,
             own: Mutex::default(),
+            is_gzip: false,
         })
     }
 
@@ -182,6 +204,7 @@ impl Document {
             is_edited: true,
             stamp: None,
             own: Mutex::default(),
+            is_gzip: false,
         })
     }
 
@@ -195,6 +218,12 @@ impl Document {
     #[must_use]
     pub fn format(&self) -> Format {
         self.format
+    }
+
+    /// Whether the file was compressed where it was read, whatever its name says.
+    #[must_use]
+    pub fn is_gzip(&self) -> bool {
+        self.is_gzip
     }
 
     /// The size of the file and of the buffers beside it that were read, as they stand on the disk;
@@ -307,6 +336,13 @@ impl Document {
         }
         Ok(())
     }
+}
+
+/// The error for a plain file whose name ends in `.gz`.
+fn not_compressed() -> FileErrorKind {
+    let problem =
+        "its name ends in .gz, but what is in it is not compressed: remove .gz from the name";
+    FileErrorKind::unsupported(problem)
 }
 
 /// The folder of a file, empty for this one.

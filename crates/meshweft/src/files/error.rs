@@ -179,8 +179,8 @@ impl fmt::Display for FileErrorKind {
             Self::Io(error) => write!(f, "{error}"),
             Self::ReadOnly => f.write_str("it is read-only, and is not replaced unasked"),
             Self::UnknownFormat => f.write_str(
-                "unknown format: files that end in .gltf, .glb, .obj, .ply, .off, .stl, .wrl \
-                 or .vrml are read, optionally followed by .gz",
+                "unknown format: neither the name nor the first bytes are of glTF, GLB (also .vrm), OBJ, PLY, \
+                 OFF, STL or VRML, optionally compressed by gzip",
             ),
             Self::Truncated { what } => write!(
                 f,

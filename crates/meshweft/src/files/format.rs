@@ -1,7 +1,9 @@
-//! Which formats there are, and how a file name tells its own.
+//! Which formats there are, and how a file tells its own.
 
 use std::fmt;
 use std::path::Path;
+
+use super::signature;
 
 /// A file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -9,7 +11,7 @@ use std::path::Path;
 pub enum Format {
     /// glTF 2.0 as JSON, with buffers beside it or inside.
     Gltf,
-    /// glTF 2.0 as one binary file.
+    /// glTF 2.0 as one binary file; VRM is one.
     Glb,
     /// Wavefront OBJ.
     Obj,
@@ -24,15 +26,13 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file name stands for; `.gz` at the end is ignored.
+    /// The format that a file name stands for; `.gz` at the end is ignored. What is in the file may be
+    /// another: see [`of_content`](Self::of_content).
     #[must_use]
     pub fn of_path(path: &Path) -> Option<Self> {
-        // What is not UTF-8 is not in the ending.
-        let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
-        let name = name.strip_suffix(".gz").unwrap_or(&name);
-        match name.rsplit_once('.')?.1 {
+        match ending(path)?.as_str() {
             "gltf" => Some(Self::Gltf),
-            "glb" => Some(Self::Glb),
+            "glb" | "vrm" => Some(Self::Glb),
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
             "off" => Some(Self::Off),
@@ -41,6 +41,24 @@ impl Format {
             _ => None,
         }
     }
+
+    /// The format that the bytes of a whole file are surely of, whatever it is called. An OBJ has nothing
+    /// that makes it sure.
+    ///
+    /// # Complexity
+    /// Time O(bytes).
+    #[must_use]
+    pub fn of_content(bytes: &[u8]) -> Option<Self> {
+        signature::of_content(bytes, bytes.len() as u64)
+    }
+}
+
+/// What a file name ends with, without `.gz`, in small letters.
+pub(super) fn ending(path: &Path) -> Option<String> {
+    // What is not UTF-8 is not in the ending.
+    let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
+    let name = name.strip_suffix(".gz").unwrap_or(&name);
+    Some(name.rsplit_once('.')?.1.to_owned())
 }
 
 impl fmt::Display for Format {

@@ -11,6 +11,7 @@
 //! | what can be done to a document | [`Edit`], [`Document::create`] |
 //! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `definitions`, `record_file` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
+//! | what a file is, by its name and by its bytes | [`Format`], `signature` |
 //! | where bytes come from | `disk`, `surroundings` |
 //! | where they go, and why nothing is lost on the way | `write`, `placing`, `companions`, `links`, `locks`, `disk` |
 
@@ -40,6 +41,7 @@ mod placing;
 mod ply;
 mod record_file;
 mod rewrite;
+mod signature;
 mod slots;
 mod splice;
 mod stl;

@@ -6,11 +6,13 @@ use std::sync::PoisonError;
 use std::{fs, io};
 
 use super::companions::{self, Copied};
-use super::content::{OutputFile, OutputPlace};
-use super::disk::{copy_file, holds, is_gzip, remove, remove_abandoned_below, write_files};
+use super::content::{OutputFile, OutputPlace, WriteFile};
+use super::disk::{
+    copy_file, gzip_encoder, holds, is_gzip, remove, remove_abandoned_below, write_files,
+};
 use super::document::{Document, folder_of};
 use super::error::{FileError, FileErrorKind, Place, Problem};
-use super::format::Format;
+use super::format::{Format, ending};
 use super::gltf;
 use super::links::{
     Stamp, check_link, check_stays_in_folder, is_read_only, is_same_folder, other_names, real_path,
@@ -110,11 +112,12 @@ impl Document {
     /// replaces a file; what could not be copied is noted.
     ///
     /// Several writers of one folder wait for each other, in this process and in others, where the system
-    /// can lock folders. A name that ends in `.gz` is compressed; a compressed file that has not changed
-    /// is copied.
+    /// can lock folders. A name that ends in `.gz` is compressed, and so is a file that was read compressed
+    /// under a name without `.gz`; a compressed file that has not changed is copied.
     ///
     /// # Errors
-    /// [`FileError`] if a file cannot be written, or `path` is of another format, or a link that leads
+    /// [`FileError`] if a file cannot be written, or `path` says another format and does not end as the name
+    /// that it was read under, or is a link that leads
     /// elsewhere, or a file that would be replaced has changed since it was read; of kind [`FileErrorKind::ReadOnly`] if a read-only file would be replaced.
     pub fn write_with(
         &self,
@@ -126,7 +129,7 @@ impl Document {
             let problem = FileErrorKind::Io(error).at(Place::File);
             problem.in_file(&path, Some(self.format))
         };
-        if Format::of_path(path) != Some(self.format) {
+        if !self.may_be_called(path) {
             let feature = format!(
                 "a {} file stays one: give the output the same ending as {}",
                 self.format,
@@ -173,7 +176,9 @@ impl Document {
     /// Whether it is copied instead of written: a compressed file, whose bytes might change otherwise.
     fn is_to_be_copied(&self, path: &Path) -> bool {
         let is_alone = self.content.beside().is_empty() && self.folder.is_some();
-        !self.is_edited && is_alone && is_gzip(&self.path) && is_gzip(path)
+        // Where its name does not say that it is compressed, that of the output need not.
+        let stays_compressed = self.is_gzip() && (is_gzip(path) || !is_gzip(&self.path));
+        !self.is_edited && is_alone && stays_compressed
     }
 
     fn copy_to(&self, path: &Path, options: &WriteOptions<'_>) -> Result<Written, FileError> {
@@ -232,6 +237,9 @@ impl Document {
                     .map_err(|problem| problem.in_file(&file.path, Some(self.format)))?;
             }
             let mut notes: Vec<Note> = replaced.filter_map(other_names_note).collect();
+            if let Some(main) = files.last_mut().filter(|_| self.is_gzip_inside(path)) {
+                compress(main);
+            }
 
             match write_files(&files) {
                 Ok(sizes) => {
@@ -255,6 +263,17 @@ impl Document {
                 }
             }
         }
+    }
+
+    /// Whether a name fits: it says the format, or the same as the name that it was read under.
+    fn may_be_called(&self, path: &Path) -> bool {
+        let named = Format::of_path(path);
+        named == Some(self.format) || ending(path) == ending(&self.path)
+    }
+
+    /// Whether it is compressed under a name that does not say so, as it was when it was read.
+    fn is_gzip_inside(&self, path: &Path) -> bool {
+        self.is_gzip() && !is_gzip(&self.path) && !is_gzip(&real_path(path))
     }
 
     /// Refuses to write beside files, or over one, that are not those that were read: what somebody else
@@ -434,6 +453,17 @@ fn remove_left_over(files: Vec<PathBuf>, options: &WriteOptions<'_>) {
         |file: &PathBuf| is_made_here(file) && (options.replace_read_only || !is_read_only(file));
     let free: Vec<PathBuf> = files.into_iter().filter(is_free).collect();
     remove(&free);
+}
+
+/// Lets a file be written compressed, whatever it is called.
+fn compress(file: &mut OutputFile<'_>) {
+    let write: Box<WriteFile<'_>> = Box::new(|_| Ok(()));
+    let write = std::mem::replace(&mut file.write, write);
+    file.write = Box::new(move |sink| {
+        let mut encoder = gzip_encoder(sink);
+        write(&mut encoder)?;
+        encoder.finish().map(drop)
+    });
 }
 
 fn bytes_of(file: &OutputFile<'_>) -> Result<Vec<u8>, Problem> {

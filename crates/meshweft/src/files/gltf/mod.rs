@@ -81,7 +81,7 @@ use std::path::{Path, PathBuf};
 use std::{fmt, fs, io};
 
 use super::content::{Content, OutputFile, ReadResult};
-use super::disk::{read_limited, read_start};
+use super::disk::read_start;
 use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
@@ -254,15 +254,17 @@ pub fn external_buffers(path: &Path, limits: &Limits) -> Result<Vec<PathBuf>, Fi
             let error = io::Error::other("it is not a file");
             return Err(FileErrorKind::Io(error).at(Place::File));
         }
-        let bytes = match format {
-            // The binary chunk of a GLB may be large, and is of no use here.
-            Some(Format::Glb) => read_start(path, limits, Container::json_end),
-            _ => read_limited(path, limits).map(|stored| stored.bytes),
+        // The binary chunk of a GLB may be large, and is of no use here.
+        let is_glb = |start: &[u8]| start.starts_with(b"glTF") || format == Some(Format::Glb);
+        let end = |start: &[u8]| match is_glb(start) {
+            true => Container::json_end(start),
+            false => u64::MAX,
         };
+        let bytes = read_start(path, limits, end);
         let bytes = bytes.map_err(|kind| kind.at(Place::File))?;
-        let container = match format {
-            Some(Format::Glb) => Container::of_start(bytes)?,
-            _ => Container::of_text(bytes),
+        let container = match is_glb(&bytes) {
+            true => Container::of_start(bytes)?,
+            false => Container::of_text(bytes),
         };
         let json = read_json(&container, limits)?;
         buffers::external_paths(&Object::new(json.root(), String::new())?, path)
