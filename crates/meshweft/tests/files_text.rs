@@ -26,6 +26,8 @@ mod obj_values;
 mod off_attributes;
 #[path = "files_text/others.rs"]
 mod others;
+#[path = "files_text/ply_strips.rs"]
+mod ply_strips;
 #[path = "files_text/ply_values.rs"]
 mod ply_values;
 #[path = "files_random/mod.rs"]

@@ -53,7 +53,7 @@ pub(super) fn read<R: PlyRows>(
 }
 
 /// Reads past the rows of an element, and hands over where each stands.
-fn pass_over<R: PlyRows>(
+pub(super) fn pass_over<R: PlyRows>(
     rows: &mut R,
     element: &Element,
     mut seen: impl FnMut(usize, Range<usize>) -> Result<(), FileErrorKind>,

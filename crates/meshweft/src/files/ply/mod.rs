@@ -26,7 +26,7 @@
 //!
 //! [`header`] says what is in the file, [`plan`] what may move, [`rows`] reads values and [`body`]
 //! whole elements, [`notation`] writes corners, [`attributes`] reads what is stored with them, as
-//! the types of [`number`]. [`mod@create`] makes a file of a new mesh.
+//! the types of [`number`]. [`strips`] makes faces of strips, [`mod@create`] a file of a new mesh.
 
 mod attributes;
 mod body;
@@ -36,6 +36,7 @@ mod notation;
 mod number;
 mod plan;
 mod rows;
+mod strips;
 
 use crate::Mesh;
 use crate::files::content::ReadResult;
@@ -73,6 +74,15 @@ pub(super) fn create(meshes: &[NewMesh<'_>]) -> ReadResult {
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     let limits = &options.limits;
     let header = header::read(&bytes)?;
+    if options.strips_to_lists
+        && let Some((bytes, note)) = strips::to_faces(&bytes, &header, limits)?
+    {
+        let mut options = options.clone();
+        options.strips_to_lists = false;
+        let (content, mut notes) = read(bytes, &options)?;
+        notes.insert(0, note);
+        return Ok((content, notes));
+    }
     let plan = Plan::new(&header, options)?;
     let at_header = |element: &Element, kind: FileErrorKind| kind.at(Place::Line(element.line));
     if let Some(element) = header.element("vertex") {
@@ -114,7 +124,7 @@ fn finish(bytes: Vec<u8>, header: PlyHeader, plan: Plan, body: Body) -> ReadResu
         notes.push(match header.element("tristrips") {
             Some(strips) => Note::new(
                 Place::Line(strips.line),
-                "triangle strips stay as they are: convert them to faces first",
+                "triangle strips stay as they are; strips_to_lists makes faces of them",
             ),
             None => Note::nothing_to_order(),
         });
