@@ -1,5 +1,5 @@
-//! Any bytes as OBJ, and as the library of materials beside one: no panic, and what is accepted survives
-//! being permuted.
+//! Any bytes as OBJ, as a file of a format that they tell, and as the library of materials beside an
+//! OBJ: no panic, and what is accepted survives being permuted.
 #![no_main]
 
 mod round_trip;
@@ -14,6 +14,7 @@ use meshweft::files::{Document, Format, Surroundings};
 const OBJ: &[u8] = b"mtllib a.mtl\nv 0 0 0\nusemtl a\nf 1 1 1\nusemtl b c\nf 1 1 1\n";
 
 fuzz_target!(|data: &[u8]| {
+    let _ = Format::of_content(data);
     round_trip::check(data, Format::Obj, "mesh.obj");
 
     let files = BTreeMap::from([(PathBuf::from("a.mtl"), data.to_vec())]);

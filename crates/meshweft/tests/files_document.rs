@@ -263,7 +263,8 @@ fn what_is_no_mesh_is_named() {
         assert!(error(name, b"{\"error\": 404}").contains("this is JSON text"));
         assert!(error(name, b"PK\x03\x04").contains("this is a ZIP archive"));
     }
-    assert!(error("a.wrl", html).contains("X3D is not read"));
+    assert!(error("a.wrl", html).contains("this is an HTML page"));
+    assert!(error("a.wrl", b"<?xml version='1.0'?><X3D>").contains("X3D is not read"));
     assert!(error("a.obj", b"Not Found").contains("no line is an OBJ statement"));
     assert!(error("a.dat", b"?").contains("unknown format: neither the name"));
 

@@ -76,11 +76,11 @@ impl Document {
             return Err(in_file(not_compressed()));
         }
 
-        // Nothing large is read to find that it is not known.
-        if named.is_none() {
+        // Nothing large is read to find that it is not known. What is not a file can be read only once.
+        let file = fs::metadata(path).ok().filter(fs::Metadata::is_file);
+        if let (None, Some(file)) = (named, file) {
             let start = read_start_as(path, holds_gzip, &options.limits, |_| signature::START);
-            let length = fs::metadata(path).ok().filter(|_| !holds_gzip);
-            let length = length.map_or(u64::MAX, |data| data.len());
+            let length = if holds_gzip { u64::MAX } else { file.len() };
             let checked = start.and_then(|start| signature::check_start(&start, length));
             checked.map_err(in_file)?;
         }

@@ -3,8 +3,6 @@
 use std::fmt;
 use std::path::Path;
 
-use super::signature;
-
 /// A file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -40,16 +38,6 @@ impl Format {
             "wrl" | "vrml" => Some(Self::Vrml),
             _ => None,
         }
-    }
-
-    /// The format that the bytes of a whole file are surely of, whatever it is called. An OBJ has nothing
-    /// that makes it sure.
-    ///
-    /// # Complexity
-    /// Time O(bytes).
-    #[must_use]
-    pub fn of_content(bytes: &[u8]) -> Option<Self> {
-        signature::of_content(bytes, bytes.len() as u64)
     }
 }
 

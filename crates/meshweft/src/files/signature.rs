@@ -10,6 +10,18 @@ use super::text::{Tokens, content_end, line_end, shown, whole_number};
 /// How much of a file is looked at where its name says nothing.
 pub(super) const START: u64 = 1 << 16;
 
+impl Format {
+    /// The format that the bytes of a whole file are surely of, whatever it is called. An OBJ has nothing
+    /// that makes it sure.
+    ///
+    /// # Complexity
+    /// Time O(bytes).
+    #[must_use]
+    pub fn of_content(bytes: &[u8]) -> Option<Self> {
+        of_content(bytes, bytes.len() as u64)
+    }
+}
+
 /// The format of a file that has this one by its name.
 ///
 /// # Errors
@@ -43,7 +55,7 @@ pub(super) fn check(format: Format, bytes: &[u8]) -> Result<(), FileErrorKind> {
     let is_sound = match format {
         Format::Stl => is_binary_stl(bytes, bytes.len() as u64),
         // Its reader knows X3D.
-        Format::Vrml => bytes.trim_ascii_start().starts_with(b"<"),
+        Format::Vrml => text_of(bytes).starts_with(b"<") && !is_html(text_of(bytes)),
         _ => false,
     };
     match foreign(bytes).filter(|_| !is_sound) {
@@ -277,19 +289,26 @@ const UNPACK: &str = "Unpack it first";
 const AGAIN: &str = "Fetch the mesh itself";
 const CONVERT: &str = "Convert it to glTF first";
 
+fn is_html(text: &[u8]) -> bool {
+    starts_with(text, "<!doctype html") || starts_with(text, "<html")
+}
+
+/// Whether a text starts so, in small letters or large ones.
+fn starts_with(text: &[u8], start: &str) -> bool {
+    let found = text.get(..start.len());
+    found.is_some_and(|found| found.eq_ignore_ascii_case(start.as_bytes()))
+}
+
 /// The error for what is surely no mesh file that is read.
 fn foreign(bytes: &[u8]) -> Option<FileErrorKind> {
     let text = text_of(bytes);
-    let starts = |start: &str| {
-        let found = text.get(..start.len());
-        found.is_some_and(|found| found.eq_ignore_ascii_case(start.as_bytes()))
-    };
+    let starts = |start: &str| starts_with(text, start);
     let signature = SIGNATURES
         .iter()
         .find(|(start, ..)| bytes.starts_with(start));
     let (what, advice) = if let Some((_, what, advice)) = signature {
         (*what, *advice)
-    } else if starts("<!doctype html") || starts("<html") {
+    } else if is_html(text) {
         ("an HTML page", AGAIN)
     } else if starts("<?xml") || starts("<X3D") || starts("<COLLADA") || starts("<Error>") {
         match text.get(..text.len().min(1024)) {

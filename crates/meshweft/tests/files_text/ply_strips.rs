@@ -3,7 +3,8 @@
 use meshweft::files::{Document, Edit, Format, Place, ReadOptions};
 use meshweft::{FaceOrder, Limits, Permutation};
 
-use super::{check, name_of, open, written};
+use super::{check, name_of, open, round_trip, written};
+use crate::random::Random;
 
 /// Two strips, the second of two pieces; one triangle has a vertex twice.
 const STRIPS: [&[i32]; 3] = [&[0, 1, 2, 3, 3, 4], &[2, 1, 0, -1, 4, 3, 2, 1], &[5, 0]];
@@ -148,4 +149,38 @@ fn strips_with_more_than_numbers_stay() {
         .replace("2 1\n", "2 1 1\n")
         .replace("5 0\n", "5 0 2\n");
     assert!(as_faces(with_more.as_bytes()).meshes().is_empty());
+}
+
+/// What the fuzz target does, for a second and from known files.
+#[test]
+fn spoilt_strips_are_refused_or_become_faces() {
+    let mut options = ReadOptions::from(Limits::default());
+    options.strips_to_lists = true;
+    let read = |bytes: &[u8], options: &ReadOptions| {
+        Document::from_bytes(bytes.to_vec(), Format::Ply, name_of(Format::Ply), options)
+    };
+    let mut random = Random(9);
+    let pieces: [&[u8]; 6] = [b"\n", b" ", b"0", b"-1 ", b"tristrips", b"\nelement face 0"];
+    let mut accepted = 0;
+    for file in [
+        ascii("\n").into_bytes(),
+        binary("binary_little_endian", "int int", 4),
+        binary("binary_big_endian", "int char", 1),
+    ] {
+        for _ in 0..4000 {
+            let spoilt = random.spoilt(&file, &pieces, 3);
+            let Ok(document) = read(&spoilt, &options) else {
+                continue;
+            };
+            let bytes = written(&document);
+            let again = read(&bytes, &ReadOptions::default()).unwrap();
+            assert_eq!(document.meshes().len(), again.meshes().len());
+            for (made, read) in document.meshes().iter().zip(again.meshes()) {
+                assert_eq!(made.mesh.faces(), read.mesh.faces());
+                accepted += 1;
+            }
+            round_trip::check(&bytes, Format::Ply, "mesh.ply");
+        }
+    }
+    assert!(accepted > 300, "{accepted}");
 }
