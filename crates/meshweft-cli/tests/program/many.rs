@@ -406,8 +406,18 @@ fn the_unknown_is_kept_refused_or_vouched_for() {
 fn groups_are_crossed_only_if_asked() {
     let folder = Folder::new("groups");
     // Every face in a group of its own: within them nothing can move.
-    let grouped = grid_obj().replace("\nf ", "\ng part\nf ");
-    folder.write("a.obj", grouped);
+    let each = |statement: &str| {
+        let text = grid_obj();
+        let lines = text
+            .lines()
+            .enumerate()
+            .map(|(number, line)| match line.starts_with("f ") {
+                true => format!("{statement} part{number}\n{line}\n"),
+                false => format!("{line}\n"),
+            });
+        lines.collect::<String>()
+    };
+    folder.write("a.obj", each("g"));
     let acmr = |flags: &[&str]| {
         let mut arguments = vec!["optimize", "a.obj", "-o", "out.obj", "--json"];
         arguments.extend(flags);
@@ -424,7 +434,6 @@ fn groups_are_crossed_only_if_asked() {
         .json();
     assert_eq!(compared["same_triangles"], true);
     // A material is never crossed.
-    let painted = grid_obj().replace("\nf ", "\nusemtl x\nf ");
-    folder.write("a.obj", painted);
+    folder.write("a.obj", each("usemtl"));
     assert!(acmr(&["--across-groups"]) > 1.0);
 }
