@@ -41,15 +41,15 @@ pub(super) fn copy(
     for relative in companions {
         let (source, target) = (from.join(relative), main.with_file_name(relative));
         match place(&source, from, &target, main, is_taken) {
-            Ok(Found::ToCopy) => match copy_new(&source, &target) {
+            Ok(Destination::ToCopy) => match copy_new(&source, &target) {
                 Ok(Claim::Taken) if !is_same_content(&source, &target).unwrap_or(false) => {
                     leave(&mut left, relative, ANOTHER);
                 }
                 Ok(Claim::Taken | Claim::Done) => copied.files.push(target),
                 Err(error) => return Err((target, error)),
             },
-            Ok(Found::There) => copied.files.push(target),
-            Ok(Found::Left(why)) => leave(&mut left, relative, &why),
+            Ok(Destination::There) => copied.files.push(target),
+            Ok(Destination::Left(why)) => leave(&mut left, relative, &why),
             Err(error) => return Err((source, error)),
         }
     }
@@ -77,8 +77,8 @@ fn leave(left: &mut BTreeMap<String, (PathBuf, usize)>, relative: &Path, why: &s
     }
 }
 
-/// What there is at the two ends of a copy.
-enum Found {
+/// What there is where a file is to be copied to.
+enum Destination {
     ToCopy,
     /// It has been copied before.
     There,
@@ -96,8 +96,8 @@ fn place(
     target: &Path,
     main: &Path,
     is_taken: &dyn Fn(&Path, bool) -> bool,
-) -> io::Result<Found> {
-    let left = |why: String| Ok(Found::Left(why));
+) -> io::Result<Destination> {
+    let left = |why: String| Ok(Destination::Left(why));
 
     // The source: a file that can be read.
     if let Err(error) = check_link(source, from) {
@@ -133,10 +133,10 @@ fn place(
         return left("another output of this run has its name".into());
     }
     if !target.exists() {
-        return Ok(Found::ToCopy);
+        return Ok(Destination::ToCopy);
     }
     match is_same_content(source, target) {
-        Ok(true) => Ok(Found::There),
+        Ok(true) => Ok(Destination::There),
         Ok(false) => left(ANOTHER.into()),
         Err(error) => left(format!("what has its name cannot be read ({error})")),
     }
