@@ -118,7 +118,8 @@ impl Document {
     /// # Errors
     /// [`FileError`] if a file cannot be written, or `path` says another format and does not end as the name
     /// that it was read under, or is a link that leads
-    /// elsewhere, or a file that would be replaced has changed since it was read; of kind [`FileErrorKind::ReadOnly`] if a read-only file would be replaced.
+    /// elsewhere, or a file that would be replaced has changed since it was read; of kind
+    /// [`FileErrorKind::ReadOnly`] if a read-only file would be replaced.
     pub fn write_with(
         &self,
         path: &Path,
