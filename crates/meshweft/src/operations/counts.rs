@@ -84,6 +84,37 @@ impl Counts {
     }
 }
 
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_few_faces_on_a_large_vertex_buffer_count_the_same() {
+        let faces = [[900, 7, 41], [41, 7, 3], [3, 900, 3]];
+        let counts = |vertex_count| {
+            let faces = Faces::new(&faces, vertex_count).unwrap();
+            Counts::of(faces, &USUAL_CACHES)
+        };
+        let expected = Counts {
+            vertices: 901,
+            used_vertices: 4,
+            faces: 3,
+            misses: USUAL_CACHES.map(|model| (model, 4)).to_vec(),
+            // Records of 32 bytes: 3 and 7, 41 and 900 each have a line of 64 bytes of their own.
+            overfetch: 2.0,
+        };
+        assert_eq!(counts(901), expected);
+        let vertices = 5_000_000;
+        assert_eq!(
+            counts(vertices),
+            Counts {
+                vertices,
+                ..expected
+            }
+        );
+    }
+}
+
 #[cfg(feature = "files")]
 mod of_files {
     use std::collections::BTreeMap;

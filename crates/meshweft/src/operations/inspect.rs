@@ -60,9 +60,9 @@ impl InspectReport {
         report.insert("file".into(), json!(self.file.display().to_string()));
         report.insert("format".into(), json!(self.format.to_string()));
         report.insert("bytes".into(), json!(self.bytes));
-        report.insert("meshes".into(), self.meshes.iter().map(mesh).collect());
+        report.insert("meshes".into(), Value::Null);
         report.insert("total".into(), Value::Object(self.total.json()));
         report.insert("notes".into(), json::notes(&self.notes));
-        Value::Object(report).to_string()
+        json::with_list(&report, "meshes", self.meshes.iter().map(mesh))
     }
 }

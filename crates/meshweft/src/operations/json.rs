@@ -18,6 +18,35 @@ pub(super) fn head(command: &str) -> Map<String, Value> {
     report
 }
 
+/// A report as one line, with `items` as the array in its member `list`.
+///
+/// Made item by item: all as values at once would take several times the text, which is long where
+/// there are many meshes.
+pub(super) fn with_list(
+    report: &Map<String, Value>,
+    list: &str,
+    items: impl Iterator<Item = Value>,
+) -> String {
+    let mut items = Some(items);
+    let mut text = String::from("{");
+    for (key, value) in report {
+        let comma = if text.len() > 1 { "," } else { "" };
+        text += &format!("{comma}{}:", json!(key));
+        match items.take_if(|_| key == list) {
+            None => text += &value.to_string(),
+            Some(items) => {
+                text += "[";
+                for (number, item) in items.enumerate() {
+                    text += if number > 0 { "," } else { "" };
+                    text += &item.to_string();
+                }
+                text += "]";
+            }
+        }
+    }
+    text + "}"
+}
+
 impl Counts {
     /// The counts as the members of a JSON object.
     pub(super) fn json(&self) -> Map<String, Value> {
@@ -56,4 +85,21 @@ pub(super) fn change(before: &Counts, after: &Counts) -> Map<String, Value> {
 pub(super) fn notes(notes: &[Note]) -> Value {
     let note = |note: &Note| json!({"place": note.place.to_string(), "text": note.text, "more": note.more});
     notes.iter().map(note).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_made_item_by_item_is_the_same_text() {
+        for items in [vec![], vec![json!({"a": 1})], vec![json!(1), json!("\"")]] {
+            let mut report = head("test");
+            report.insert("list".into(), Value::Null);
+            report.insert("more \"".into(), json!([null, 2]));
+            let text = with_list(&report, "list", items.iter().cloned());
+            report["list"] = items.into();
+            assert_eq!(text, Value::Object(report).to_string());
+        }
+    }
 }

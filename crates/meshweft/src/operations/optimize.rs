@@ -169,7 +169,7 @@ pub struct OptimizedMesh {
     pub reason: Option<&'static str>,
     /// Pushes of the schedule for a controllable cache.
     pub scheduled: Option<u64>,
-    vertex_group: usize,
+    pub(super) vertex_group: usize,
 }
 
 impl OptimizedMesh {

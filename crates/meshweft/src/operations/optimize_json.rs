@@ -1,6 +1,8 @@
 //! What was optimised, as JSON.
 
-use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value, json};
 
 use super::json;
 use super::optimize::{OptimizeReport, OptimizedMesh};
@@ -28,12 +30,12 @@ impl OptimizeReport {
         insert("effort", json!(self.options.effort.to_string()));
         insert("mode", json!(mode.to_string()));
         insert("stopped", json!(self.is_stopped));
-        insert("meshes", meshes.map(|mesh| self.mesh_json(mesh)).collect());
+        insert("meshes", Value::Null);
         insert("total", self.total_json_value());
         let worse_in = self.worse_in().map(|model| json!(model.to_string()));
         insert("worse_in", worse_in.collect());
         insert("notes", json::notes(&self.notes));
-        Value::Object(report).to_string()
+        json::with_list(&report, "meshes", meshes.map(|mesh| self.mesh_json(mesh)))
     }
 
     /// What was counted on all meshes together, before and after, as one line of JSON: the member
@@ -65,26 +67,34 @@ impl OptimizeReport {
     }
 
     /// Where every face record and vertex went, as one line of JSON: `out[i] = in[new_to_old[i]]`.
+    ///
+    /// The vertex order of meshes that share their vertices is that of the first of them, to which the
+    /// others refer by number, `vertex_order_of`.
     #[must_use]
     pub fn permutations_to_json(&self) -> String {
+        let mut first_of_group = BTreeMap::new();
         let meshes = self.meshes.iter().enumerate().map(|(i, mesh)| {
             let order = &mesh.faces;
             let rotations: Vec<u8> = (0..order.len()).map(|i| order.rotation(i)).collect();
+            let first = *first_of_group.entry(mesh.vertex_group).or_insert(i);
             let vertices = self.vertex_order(i);
-            json!({
+            let mut object = json!({
                 "name": mesh.name,
                 "face_new_to_old": order.new_to_old(),
                 "corner_rotations": rotations,
-                "vertex_new_to_old": vertices.map(VertexOrder::new_to_old),
-            })
+                "vertex_new_to_old": vertices.filter(|_| first == i).map(VertexOrder::new_to_old),
+            });
+            if vertices.is_some() && first != i {
+                object["vertex_order_of"] = json!(first);
+            }
+            object
         });
         let convention = "out[i] = in[new_to_old[i]]; new corner j = old corner (j + rotation) % 3";
-        json!({
-            "schema": json::SCHEMA,
-            "file": self.file.display().to_string(),
-            "convention": convention,
-            "meshes": meshes.collect::<Vec<_>>(),
-        })
-        .to_string()
+        let mut report = Map::new();
+        report.insert("schema".into(), json!(json::SCHEMA));
+        report.insert("file".into(), json!(self.file.display().to_string()));
+        report.insert("convention".into(), json!(convention));
+        report.insert("meshes".into(), Value::Null);
+        json::with_list(&report, "meshes", meshes)
     }
 }
