@@ -6,12 +6,12 @@
 import { execFile } from "node:child_process";
 import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { basename, dirname, join, relative } from "node:path";
+import { basename, join, relative } from "node:path";
 import { isDeepStrictEqual, promisify } from "node:util";
 
 import { Glb } from "./glb.mjs";
 import { make } from "./made.mjs";
-import { copyAround, filesBelow, findings, isError, isGlb, jsonOf, names } from "./reading.mjs";
+import { copyAround, filesBelow, findings, isChanged, isError, isGlb, jsonOf, names } from "./reading.mjs";
 import { differences, load } from "./three.mjs";
 
 const [program, data] = process.argv.slice(2);
@@ -40,17 +40,6 @@ function orderFree(finding, indexAccessors) {
 async function indexAccessors(file) {
     const { meshes = [] } = await jsonOf(file);
     return new Set(meshes.flatMap(({ primitives }) => primitives).map(({ indices }) => indices));
-}
-
-/** Whether the file or a buffer beside it was changed. */
-async function isChanged(before, after) {
-    const content = async (file) => {
-        const uris = isGlb(file) ? [] : ((await jsonOf(file)).buffers ?? []).map(({ uri }) => uri);
-        const names = uris.filter((uri) => uri && !uri.startsWith("data:")).map(decodeURIComponent);
-        const files = [file, ...names.map((name) => join(dirname(file), name))];
-        return Buffer.concat(await Promise.all(files.map((one) => readFile(one))));
-    };
-    return !(await content(before)).equals(await content(after));
 }
 
 /** The first line that only one of two sorted lists has. */

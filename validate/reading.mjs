@@ -46,6 +46,17 @@ export async function jsonOf(file) {
     return isGlb(file) ? new Glb(bytes).json : JSON.parse(bytes.toString());
 }
 
+/** Whether the file or a buffer beside it was changed. */
+export async function isChanged(before, after) {
+    const content = async (file) => {
+        const uris = isGlb(file) ? [] : ((await jsonOf(file)).buffers ?? []).map(({ uri }) => uri);
+        const names = uris.filter((uri) => uri && !uri.startsWith("data:")).map(decodeURIComponent);
+        const files = [file, ...names.map((name) => join(dirname(file), name))];
+        return Buffer.concat(await Promise.all(files.map((one) => readFile(one))));
+    };
+    return !(await content(before)).equals(await content(after));
+}
+
 /** What the Khronos validator finds, and what it counts. */
 export async function findings(file, uri) {
     const validated = validator.validateBytes(new Uint8Array(await readFile(file)), {
