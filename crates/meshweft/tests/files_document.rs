@@ -277,3 +277,29 @@ fn what_is_no_mesh_is_named() {
         assert_eq!(error.kind(), std::io::ErrorKind::NotFound);
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn pipes_devices_and_folders_are_refused_at_once() {
+    let folder = Folder::new("not-files");
+    for name in ["mesh.obj", "mesh.glb", "mesh.off.gz", "without ending"] {
+        let path = folder.0.join(name);
+        let refused = |what: &str| {
+            let error = Document::open(&path, Limits::default()).unwrap_err();
+            assert_eq!(error.place, Place::File, "{what} {name}");
+            let text = error.to_string();
+            assert!(text.contains("it is not a file"), "{what}: {text}");
+        };
+        let status = std::process::Command::new("mkfifo").arg(&path).status();
+        assert!(status.unwrap().success());
+        refused("pipe");
+        fs::remove_file(&path).unwrap();
+
+        std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
+        refused("device");
+        fs::remove_file(&path).unwrap();
+
+        fs::create_dir(&path).unwrap();
+        refused("folder");
+    }
+}

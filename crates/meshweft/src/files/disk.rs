@@ -26,12 +26,8 @@ pub fn is_gzip(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
 }
 
-/// Whether a file holds gzip data, whatever it is called. What is not a file, but for example a pipe, is
-/// not looked into: its name says it.
+/// Whether a file holds gzip data, whatever it is called.
 pub(super) fn holds_gzip(path: &Path) -> io::Result<bool> {
-    if !fs::metadata(path)?.is_file() {
-        return Ok(is_gzip(path));
-    }
     let mut start = Vec::new();
     fs::File::open(path)?.take(2).read_to_end(&mut start)?;
     Ok(start == b"\x1f\x8b")

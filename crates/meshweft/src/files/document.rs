@@ -64,23 +64,29 @@ impl Document {
     /// than the name says, or the name says none, they decide.
     ///
     /// # Errors
-    /// [`FileError`]: the file cannot be read, is of no known format, is not sound, or is over a
-    /// limit.
+    /// [`FileError`]: the file cannot be read, is a pipe or a device, is of no known format, is not sound, or
+    /// is over a limit.
     pub fn open(path: &Path, options: impl Into<ReadOptions>) -> Result<Self, FileError> {
         let options = options.into();
         let named = Format::of_path(path);
         let in_file = |kind: FileErrorKind| kind.at(Place::File).in_file(path, named);
-        let holds_gzip = holds_gzip(path).map_err(|error| in_file(FileErrorKind::Io(error)))?;
+        let no_access = |error| in_file(FileErrorKind::Io(error));
+        let data = fs::metadata(path).map_err(no_access)?;
+        // A pipe waits for its writer and a device may never end: neither is opened.
+        if !data.is_file() {
+            let text = "it is not a file, but a folder, pipe or device: name a file";
+            return Err(in_file(FileErrorKind::unsupported(text)));
+        }
+        let holds_gzip = holds_gzip(path).map_err(no_access)?;
 
         if is_gzip(path) && !holds_gzip {
             return Err(in_file(not_compressed()));
         }
 
-        // Nothing large is read to find that it is not known. What is not a file can be read only once.
-        let file = fs::metadata(path).ok().filter(fs::Metadata::is_file);
-        if let (None, Some(file)) = (named, file) {
+        // Nothing large is read to find that it is not known.
+        if named.is_none() {
             let start = read_start_as(path, holds_gzip, &options.limits, |_| signature::START);
-            let length = if holds_gzip { u64::MAX } else { file.len() };
+            let length = if holds_gzip { u64::MAX } else { data.len() };
             let checked = start.and_then(|start| signature::check_start(&start, length));
             checked.map_err(in_file)?;
         }
