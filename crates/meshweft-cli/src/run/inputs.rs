@@ -185,6 +185,12 @@ fn add_below_pattern(
     for entry in entries {
         let name = entry.file_name();
         let relative = below.join(&name);
+        // As in a folder, and in a shell: what is hidden is named by its dot.
+        let is_hidden = name.as_encoded_bytes().starts_with(b".");
+        let is_named = matches!(part, Part::Name(pattern) if pattern.as_str().starts_with('.'));
+        if is_hidden && !is_named {
+            continue;
+        }
         match part {
             // Links to folders are not followed: they may lead in circles.
             Part::Folders if entry.file_type()?.is_dir() => {

@@ -88,11 +88,12 @@ fn patterns_and_shards_part_the_work() {
     let run = folder.run(&["optimize", "in/**/*.obj", "-o", "out"]);
     assert_eq!(run.code(), 0, "{}", run.err());
     let all = set(&["1.obj", "a/1.obj", "b/3.obj", "b/c/2.obj"]);
-    assert!(
-        all.is_subset(&files(&folder.0.join("out"))),
-        "{:?}",
-        files(&folder.0)
-    );
+    assert_eq!(files(&folder.0.join("out")), all);
+    // What is hidden is found by its dot.
+    let run = folder.run(&["optimize", "in/.h*/*.obj", "-o", "hidden"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    let hidden = files(&folder.0.join("hidden"));
+    assert_eq!(hidden, set(&[".hidden/4.obj"]));
     for (shard, count) in [("1/3", 2), ("2/3", 1), ("3/3", 1)] {
         let output = format!("shard-{}", &shard[..1]);
         let run = folder.run(&["optimize", "in", "-o", &output, "--shard", shard]);
