@@ -1,6 +1,5 @@
 //! `optimize`: the main job.
 
-use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -14,7 +13,7 @@ use crate::run::arguments::{Reading, Run};
 use crate::run::jobs::{Job, Jobs, names_of};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
-use crate::run::side_file::{MANIFEST, PERMUTATION};
+use crate::run::side_file::{MANIFEST, PERMUTATION, PendingFile};
 use crate::run::watch::Watch;
 use crate::run::{self, Outcome, output, write};
 use crate::usage::Usage;
@@ -85,6 +84,14 @@ fn optimize(
     let mut report = operations::optimize(&mut document, options, &watch)?;
     watch.finish();
 
+    // On the disk before the mesh is, and named after it.
+    let permutation = arguments.write_permutation.as_ref();
+    let permutation = permutation.filter(|_| !arguments.run.dry_run).map(|file| {
+        let pending = PendingFile::new(file, report.permutations_to_json());
+        pending.with_context(|| file.display().to_string())
+    });
+    let permutation = permutation.transpose()?;
+
     let mut renamed = Vec::new();
     if arguments.run.writes(report.is_changed()) {
         let written = write::write(job, &document, &arguments.run, &jobs.outputs)?;
@@ -92,12 +99,11 @@ fn optimize(
         report.add_written(&written);
         renamed = write::renamed_lines(job, &written);
     }
-    let permutation = arguments.write_permutation.as_ref();
-    if let Some(file) = permutation.filter(|_| !arguments.run.dry_run) {
+    if let (Some(pending), Some(file)) = (permutation, &arguments.write_permutation) {
         // A buffer that was just written may have that name.
         PERMUTATION.check(file, arguments.run.force)?;
-        let text = report.permutations_to_json();
-        fs::write(file, text).with_context(|| file.display().to_string())?;
+        let written = pending.commit();
+        written.with_context(|| file.display().to_string())?;
     }
     report.seconds = Some(start.elapsed().as_secs_f64());
 

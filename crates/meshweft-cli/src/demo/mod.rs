@@ -19,6 +19,7 @@ use serde_json::{Value, json};
 
 use crate::columns::columns;
 use crate::run::output::Report;
+use crate::usage::Usage;
 
 #[derive(Debug, Args)]
 pub(crate) struct Demo {
@@ -32,6 +33,9 @@ pub(crate) struct Demo {
     #[command(flatten)]
     report: Report,
 }
+
+/// The name of the picture.
+const PICTURE: &str = "before-after.png";
 
 /// Cache sizes of the columns.
 const SIZES: [u32; 3] = [12, 16, 32];
@@ -50,9 +54,30 @@ const METHODS: [fn(u32) -> Method; 6] = [
     },
 ];
 
+/// Refuses a folder in which a file has one of the demo's names, and no demo made it.
+fn check_free(folder: &Path) -> Result<()> {
+    let is_own = |name: &str| {
+        let start = fs::read(folder.join(name)).unwrap_or_default();
+        let start = &start[..start.len().min(1 << 10)];
+        start.windows(8).any(|word| word == b"meshweft")
+    };
+    let names = ["knot.glb", "isosurface.glb"];
+    let made_here = names.iter().all(|name| is_own(name));
+    let mut others = names.into_iter().chain([PICTURE]);
+    match others.find(|name| !made_here && folder.join(name).exists()) {
+        Some(name) => Err(Usage(format!(
+            "{}: this file is not one that the demo made: choose another folder",
+            folder.join(name).display()
+        ))
+        .into()),
+        None => Ok(()),
+    }
+}
+
 /// Makes the meshes, orders them, prints what came out, writes a GLB and a picture.
 pub(crate) fn run(arguments: &Demo) -> Result<()> {
     let folder = &arguments.output;
+    check_free(folder)?;
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
 
     // The meshes.
@@ -96,7 +121,7 @@ pub(crate) fn run(arguments: &Demo) -> Result<()> {
         files.push(path.display().to_string());
     }
     let picture = picture::before_and_after(&surface, &ordered_surface, CacheModel::fifo(12));
-    let path = folder.join("before-after.png");
+    let path = folder.join(PICTURE);
     fs::write(&path, picture).with_context(|| path.display().to_string())?;
     files.push(path.display().to_string());
 

@@ -41,7 +41,12 @@ impl Jobs {
         }
 
         // An output folder of an earlier run is not an input, even within a folder that is one.
-        let inputs = inputs::expand(names, output)?;
+        let mut inputs = inputs::expand(names, output)?;
+        if output.is_none() {
+            // Of two names of one file, the first.
+            let mut seen = BTreeSet::new();
+            inputs.retain(|input| whole(&input.path).is_none_or(|path| seen.insert(path)));
+        }
         let is_one_file = inputs.len() == 1 && names[0] == inputs[0].path;
         if !is_one_file && output.is_some_and(is_file) {
             return Err(Usage("several files go into a folder: give -o FOLDER/".into()).into());
@@ -64,7 +69,8 @@ impl Jobs {
             if output.is_some() {
                 job.check_that_input_stays()?;
             }
-            if let Some(other) = input_of.insert(job.target.clone(), job.input.clone()) {
+            let place = whole(&job.target).unwrap_or_else(|| job.target.clone());
+            if let Some(other) = input_of.insert(place, job.input.clone()) {
                 return Err(job.collision_with(&other).into());
             }
             list.push(job);

@@ -1,9 +1,10 @@
 //! Files that a run writes beside the meshes: lists, orders, plots. None of them replaces anything else.
 
 use std::fs;
-use std::io::Read;
-use std::path::Path;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
 
+use super::interrupt;
 use crate::usage::Usage;
 
 /// A kind of such files: the flag that names one, and how one is known again.
@@ -107,6 +108,72 @@ impl SideFile {
                 path.display()
             ))),
             false => Ok(()),
+        }
+    }
+}
+
+/// A side file that is on the disk, but gets its name only when the mesh it goes with has: neither is lost
+/// without the other.
+pub(crate) struct PendingFile {
+    path: PathBuf,
+    /// `None` where there is no file to rename, such as for /dev/stdout.
+    temporary: Option<PathBuf>,
+    text: String,
+}
+
+impl PendingFile {
+    /// Writes the text beside its place.
+    pub(crate) fn new(path: &Path, text: String) -> io::Result<Self> {
+        let mut pending = Self {
+            path: path.to_owned(),
+            temporary: None,
+            text,
+        };
+        if fs::metadata(path).is_ok_and(|data| !data.is_file()) {
+            return Ok(pending);
+        }
+        // A link is followed.
+        if let Ok(real) = fs::canonicalize(path) {
+            pending.path = real;
+        }
+        let mut name = std::ffi::OsString::from(".");
+        name.push(format!("order.{}.meshweft-tmp", std::process::id()));
+        let temporary = pending.path.with_file_name(name);
+        let file = fs::OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&temporary);
+        let mut file = match file {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                // Of a run that was killed.
+                fs::remove_file(&temporary)?;
+                fs::OpenOptions::new()
+                    .write(true)
+                    .create_new(true)
+                    .open(&temporary)?
+            }
+            file => file?,
+        };
+        pending.temporary = Some(temporary);
+        file.write_all(pending.text.as_bytes())?;
+        file.sync_all()?;
+        Ok(pending)
+    }
+
+    /// Gives it its name.
+    pub(crate) fn commit(mut self) -> io::Result<()> {
+        let _no_interrupt = interrupt::hold_off();
+        match self.temporary.take() {
+            Some(temporary) => fs::rename(temporary, &self.path),
+            None => fs::write(&self.path, &self.text),
+        }
+    }
+}
+
+impl Drop for PendingFile {
+    fn drop(&mut self) {
+        if let Some(temporary) = &self.temporary {
+            let _ = fs::remove_file(temporary);
         }
     }
 }

@@ -215,6 +215,20 @@ pub(super) fn remove_abandoned_below(files: impl Iterator<Item = PathBuf>, main:
     below.iter().for_each(|below| remove_abandoned(below));
 }
 
+/// The folders in a folder, sorted; links to folders are not followed.
+pub(super) fn folders_of(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(spelled_out(folder)).into_iter().flatten();
+    let folders = entries.flatten().filter(|entry| {
+        let kind = entry.file_type();
+        kind.is_ok_and(|kind| kind.is_dir())
+    });
+    let mut folders: Vec<PathBuf> = folders
+        .map(|entry| folder.join(entry.file_name()))
+        .collect();
+    folders.sort();
+    folders
+}
+
 /// The files of a folder, as paths that start as the folder is spelled.
 pub(super) fn files_of(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(spelled_out(folder))
@@ -382,6 +396,23 @@ struct Temporary {
     file: fs::File,
 }
 
+/// Most names that are tried for one temporary file.
+const MOST_NAMES: u32 = 1 << 10;
+
+/// The name of a file, or where it is long the start of it, so that more can be added to it.
+fn start_of_name(target: &Path) -> OsString {
+    let name = target.file_name().unwrap_or_default();
+    match name.to_str() {
+        Some(name) if name.len() > 100 => {
+            let end = (0..=100).rev().find(|&end| name.is_char_boundary(end));
+            name[..end.unwrap_or(0)].into()
+        }
+        Some(_) => name.to_owned(),
+        None if name.len() > 100 => OsString::from("mesh"),
+        None => name.to_owned(),
+    }
+}
+
 impl Temporary {
     /// Writes a file; with `is_synced`, its bytes are on the disk then.
     fn new(output: &OutputFile<'_>, is_synced: bool) -> io::Result<Self> {
@@ -418,20 +449,40 @@ impl Temporary {
         let (path, file) = loop {
             let number = NUMBER.fetch_add(1, Ordering::Relaxed);
             let mut name = OsString::from(".");
-            name.push(target.file_name().unwrap_or_default());
+            name.push(start_of_name(&target));
             name.push(format!(".{}-{number}{TEMPORARY}", std::process::id()));
             let path = target.with_file_name(name);
 
-            let file = fs::File::create(&path)?;
+            // Two processes may have one number, in containers or on two machines: what is there is of
+            // another one.
+            let created = fs::OpenOptions::new()
+                .write(true)
+                .create_new(true)
+                .open(&path);
+            let file = match created {
+                Err(error)
+                    if error.kind() == io::ErrorKind::AlreadyExists && tries < MOST_NAMES =>
+                {
+                    tries += 1;
+                    continue;
+                }
+                created => created?,
+            };
             // Not every file system has locks; without one nobody clears up after a dead writer.
             let _ = file.lock();
             // Before it was locked, somebody may have taken it for abandoned.
             tries += 1;
-            if path.exists() || tries > 16 {
+            if path.exists() || tries >= MOST_NAMES {
                 break (path, file);
             }
         };
 
+        // What others may not read, they may not read on the way either.
+        if let Ok(replaced) = fs::metadata(&target)
+            && !replaced.permissions().readonly()
+        {
+            file.set_permissions(replaced.permissions())?;
+        }
         Ok(Self {
             path,
             target,

@@ -69,7 +69,7 @@ pub(super) fn check(format: Format, bytes: &[u8]) -> Result<(), FileErrorKind> {
 pub(super) fn of_content(bytes: &[u8], length: u64) -> Option<Format> {
     let text = text_of(bytes);
     let is_ply = bytes.starts_with(b"ply") && bytes.get(3).is_some_and(|b| b"\r\n \t".contains(b));
-    let vrml = [&b"#VRML V"[..], b"#Inventor V"];
+    let vrml = [&b"#VRML V1.0 "[..], b"#VRML V2.0 ", b"#Inventor V"];
     if bytes.starts_with(b"glTF") {
         Some(Format::Glb)
     } else if is_ply {

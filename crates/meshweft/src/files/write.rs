@@ -245,7 +245,8 @@ impl Document {
             match write_files(&files) {
                 Ok(sizes) => {
                     self.remember(&files);
-                    remove_left_over(placement.left_over(beside, &placed), options);
+                    let left_over = placement.left_over(beside, &placed);
+                    remove_left_over(not_named(left_over, path), options);
                     let renamed = placement.renamed(beside, &placed);
                     notes.extend(note.filter(|_| !renamed.is_empty()));
                     return Ok(Written {
@@ -327,7 +328,7 @@ impl Document {
                 below.filter_map(|b| path.with_file_name(b.relative).parent().map(real_path));
             folders.extend(below);
         }
-        Ok(FolderLocks::of(folders))
+        FolderLocks::of(folders).map_err(|error| FileErrorKind::Io(error).at(Place::File))
     }
 
     /// The buffers that the main file at `path` names, and no other glTF; and what to say if that cannot be
@@ -446,6 +447,23 @@ fn other_names_note(file: &OutputFile<'_>) -> Option<Note> {
         );
         Note::new(Place::File, text)
     })
+}
+
+/// Those of some files that the main file, as it now is, does not name: it may name some that were not
+/// there to be read. None, if that cannot be told.
+fn not_named(mut files: Vec<PathBuf>, path: &Path) -> Vec<PathBuf> {
+    if files.is_empty() {
+        return files;
+    }
+    let Some(named) = gltf::names_of_buffers(path) else {
+        return Vec::new();
+    };
+    let named = named
+        .iter()
+        .map(|name| real_path(&path.with_file_name(name)));
+    let named: BTreeSet<PathBuf> = named.collect();
+    files.retain(|file| !named.contains(&real_path(file)));
+    files
 }
 
 /// Removes buffers that were made and named here.

@@ -53,6 +53,23 @@ fn lines_and_strips_are_renumbered_with_the_vertices_of_faces() {
 }
 
 #[test]
+fn the_outline_of_a_strip_is_renumbered_too() {
+    let mut builder = Builder::default();
+    let position = builder.data(F32, "VEC3", 30);
+    let corners = builder.indices(U16, &faces(40, 30));
+    let strip = builder.indices(U16, &faces(5, 30));
+    let outline = builder.indices(U16, &[3, 4, 5, 6]);
+    let primitives = json!([
+        {"attributes": {"POSITION": position}, "indices": corners},
+        {"attributes": {"POSITION": position}, "indices": strip, "mode": 5,
+            "extensions": {"CESIUM_primitive_outline": {"indices": outline}}},
+    ]);
+    let bytes = builder.glb(&json!([{"primitives": primitives}]), &json!({}));
+    assert!(open(&bytes).meshes()[0].vertices_movable);
+    check(&bytes);
+}
+
+#[test]
 fn vertices_stay_where_lines_cannot_be_renumbered() {
     let stay = "the vertices stay where they are";
     let cases: [(usize, &[usize], Value, String); 4] = [

@@ -23,8 +23,10 @@ fn buffers_are_shared_across_folders() {
         ("data/other.gltf", "sub/a.bin"),
         ("data/sub/other.gltf", "./a.bin"),
         ("../other.gltf", "inner/data/sub/a.bin"),
+        ("lod/other.gltf", "../data/sub/a.bin"),
     ] {
         let other = inner.0.join(place);
+        fs::create_dir_all(other.parent().unwrap()).unwrap();
         fs::write(&other, text.replace("data/sub/a.bin", uri)).unwrap();
         assert_eq!(shared(), std::slice::from_ref(&buffer), "{place}");
         // Both of a run are told.

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use meshweft::Limits;
 use meshweft::files::Document;
-use serde_json::json;
+use serde_json::{Value, json};
 
+use crate::builder::glb;
 use crate::output::{Folder, builder, external, named_after, ordered, text};
 use crate::random_orders;
 use crate::reader::Reader;
@@ -140,6 +141,45 @@ fn a_file_of_another_document_is_never_replaced() {
     assert_eq!(fs::read(out.join("scene.bin")).unwrap(), b"mine");
     let three = Reader::of_file(&out.join("three.gltf"), None);
     assert!(before.triangles() == three.triangles());
+}
+
+#[test]
+fn a_glb_says_how_long_it_is_when_a_buffer_has_another_name() {
+    for has_chunk in [false, true] {
+        let folder = Folder::new(&format!("glb-renamed-{has_chunk}"));
+        let builder = builder();
+        let mut json: Value =
+            serde_json::from_str(&text(&builder, r#"[{"uri": "s.bin", "byteLength": 0}]"#))
+                .unwrap();
+        json["buffers"][0]["byteLength"] = builder.binary.len().into();
+        if has_chunk {
+            let more = json!({"byteLength": 4});
+            let buffers = json["buffers"].as_array_mut().unwrap();
+            buffers.insert(0, more);
+            for view in json["bufferViews"].as_array_mut().unwrap() {
+                view["buffer"] = 1.into();
+            }
+        }
+        fs::write(folder.0.join("s.bin"), &builder.binary).unwrap();
+        let source = folder.0.join("a.glb");
+        let chunk = has_chunk.then_some(&[1, 2, 3, 4][..]);
+        fs::write(&source, glb(&json.to_string(), chunk)).unwrap();
+
+        // Names of other lengths than the old one.
+        let out = folder.0.join("out");
+        fs::create_dir_all(&out).unwrap();
+        fs::write(out.join("s.bin"), "mine").unwrap();
+        for name in ["b.glb", "much longer.glb"] {
+            let target = out.join(name);
+            let written = Document::open(&source, Limits::default()).unwrap();
+            let written = written.write(&target).unwrap();
+            assert_eq!(written.renamed.len(), 1);
+            let again = Document::open(&target, Limits::default()).unwrap();
+            let [before, after] = [&source, &target].map(|path| Reader::of_file(path, None));
+            assert!(before.buffers == after.buffers && before.triangles() == after.triangles());
+            assert_eq!(again.notes().len(), 1, "{:?}", again.notes());
+        }
+    }
 }
 
 #[test]

@@ -84,6 +84,28 @@ fn what_says_something_of_faces_ends_a_run() {
 }
 
 #[test]
+fn no_face_comes_to_a_place_of_another_state() {
+    for (state, other) in [
+        ("usemtl a", "usemtl b"),
+        ("s 1", "s off"),
+        ("g a", "g b"),
+        ("o a", "o b"),
+    ] {
+        for definition in ["vt 1 1", "vn 0 0 1"] {
+            let text = format!(
+                "{POINTS}vt 0 0\n{state}\nf 1 2 3\n{other}\n{definition}\n{state}\nf 3 4 2\nf 2 4 1\n"
+            );
+            assert_eq!(runs(&text), [0, 1], "{text}");
+            let moved = ordered(&text, &[0, 2, 1]);
+            assert_eq!(
+                moved,
+                text.replace("f 3 4 2\nf 2 4 1\n", "f 2 4 1\nf 3 4 2\n")
+            );
+        }
+    }
+}
+
+#[test]
 fn lines_that_faces_name_go_above_those_that_move() {
     let head = format!("{POINTS}vt 9\nusemtl a\n");
     let text = format!(

@@ -60,6 +60,24 @@ fn what_is_used_counts_like_what_stands_there() {
     }
     let other = format!("Shape {{ {faces} }} Shape {{ {define} geometry USE OTHER }}");
     assert_eq!(movable(&other), [true]);
+    // A chain of names, and a PROTO of a look.
+    for text in [
+        format!(
+            "Shape {{ appearance Appearance {{ material DEF M Material {{ transparency .5 }} }} }} \
+             Shape {{ appearance DEF A Appearance {{ material USE M }} }} \
+             Shape {{ appearance USE A {GEOMETRY} }}"
+        ),
+        format!(
+            "PROTO Look [ field SFFloat t 0 ] {{ Appearance {{ material Material {{ transparency IS t }} }} }} \
+             Shape {{ appearance Look {{ t .5 }} {GEOMETRY} }}"
+        ),
+        format!(
+            "PROTO Thing [ field SFNode look NULL ] {{ Shape {{ appearance IS look {GEOMETRY} }} }} \
+             Thing {{ look Appearance {{ material Material {{ transparency .5 }} }} }}"
+        ),
+    ] {
+        assert_eq!(movable(&text), [false], "{text}");
+    }
     // One that a PROTO is given may be anything.
     let proto = format!(
         "PROTO Pane [ field SFFloat t 0 ] {{ Shape {{ appearance Appearance {{ material Material \

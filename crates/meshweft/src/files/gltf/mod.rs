@@ -103,7 +103,7 @@ use container::Container;
 use entries::{Corners, Entries};
 use json::{Json, JsonFault, Value};
 pub use neighbours::shared_buffers;
-pub(super) use neighbours::{Known, buffer_names, named_by_others};
+pub(super) use neighbours::{Known, buffer_names, named_by_others, names_of_buffers};
 use object::Object;
 use output::Output;
 use primitives::Primitives;

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use serde_json::value::RawValue;
@@ -11,8 +11,8 @@ use serde_json::value::RawValue;
 use super::container::Container;
 use super::external_buffers;
 use super::json::{string_at, string_end};
-use super::uri::{is_of_another_place, relative_path};
-use crate::files::disk::{files_of, read_start};
+use super::uri::{is_of_another_place, path_with_parents, relative_path};
+use crate::files::disk::{files_of, folders_of, read_start};
 use crate::files::format::Format;
 use crate::files::links::{Stamp, real_path};
 use crate::limits::Limits;
@@ -21,14 +21,17 @@ use crate::limits::Limits;
 const MOST_JSON: u64 = 32 << 20;
 /// Most bytes of JSON that are read for one answer.
 const MOST_JSON_IN_ALL: u64 = 1 << 30;
+/// How many folders above that of a glTF are looked at, and the most of those in it.
+const LEVELS_ABOVE: usize = 4;
+const MOST_FOLDERS_BELOW: usize = 256;
 /// Most files that one glTF may name.
 const MOST_NAMES: usize = 1 << 16;
 
 /// Of the buffers of these files, those that another glTF names too: each as a path beside the file, as
 /// [`ReadOptions::keep_buffers`](crate::files::ReadOptions::keep_buffers) takes it.
 ///
-/// Looked at are the glTF files in the folder of each file, in the one above, in those of its buffers
-/// and in those between; links are followed. Their JSON is read, up to 32 MiB of a file and 1 GiB in
+/// Looked at are the glTF files in the folder of each file, in four above, in those in it, in those of its
+/// buffers and in those between; links are followed. Their JSON is read, up to 32 MiB of a file and 1 GiB in
 /// all; what cannot be read, or is over that, names nothing here
 /// ([`Document::write`](crate::files::Document::write) then leaves the buffers of that folder as they are,
 /// and gives the document its own).
@@ -92,8 +95,17 @@ pub(in crate::files) fn named_by_others(
 
 /// The files that the buffers of a glTF name, as paths from its folder; none of what is not one.
 pub(in crate::files) fn buffer_names(path: &Path) -> BTreeSet<PathBuf> {
-    let names = is_gltf(path).then(|| Users::default().names(path));
-    names.flatten().unwrap_or_default()
+    let names = is_gltf(path).then(|| names_of_buffers(path)).flatten();
+    let mut names = names.unwrap_or_default();
+    // What is not below the folder is not its own.
+    names.retain(|name| !name.components().any(|part| part == Component::ParentDir));
+    names
+}
+
+/// The files that the buffers of a glTF name, as paths from its folder, `..` included; `None` if that cannot
+/// be told.
+pub(in crate::files) fn names_of_buffers(path: &Path) -> Option<BTreeSet<PathBuf>> {
+    Users::default().names(path)
 }
 
 /// Who names which buffers, as real paths.
@@ -129,9 +141,13 @@ impl Users {
         for folder in folders {
             self.look_at(&folder, true);
         }
-        // From above, a buffer may be named too; but what lies there has mostly nothing to do with it.
-        if let Some(above) = folder.parent() {
+        // From above, and from below by `..`, a buffer may be named too; but what lies there has mostly
+        // nothing to do with it.
+        for above in folder.ancestors().skip(1).take(LEVELS_ABOVE) {
             self.look_at(above, false);
+        }
+        for below in folders_of(&folder).into_iter().take(MOST_FOLDERS_BELOW) {
+            self.look_at(&below, false);
         }
     }
 
@@ -204,8 +220,8 @@ impl Users {
         for uri in buffer_uris(text) {
             let uri = uri?;
             if !is_of_another_place(&uri) {
-                // Others may go up, which is refused here.
-                names.extend(relative_path(&uri));
+                // Some go up, which is refused here, but not by other programs.
+                names.extend(relative_path(&uri).ok().or_else(|| path_with_parents(&uri)));
             }
             if names.len() > MOST_NAMES {
                 return None;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
+use super::additions::{Splice, spliced};
 use super::base64;
 use super::buffers::{Buffers, Source, Storage};
 use super::container::Container;
@@ -81,7 +82,7 @@ impl<'a> Output<'a> {
         }
 
         let is_same = new_uris.is_empty() && self.unchanged_text().is_some();
-        let parts = self.main_file(new_uris);
+        let parts = self.main_file(new_uris)?;
         files.push(OutputFile {
             path: path.to_owned(),
             place: match is_same {
@@ -94,35 +95,32 @@ impl<'a> Output<'a> {
     }
 
     /// The main file in pieces, with these new URIs of buffers.
-    fn main_file(&self, mut new_uris: Vec<(usize, String)>) -> Vec<Cow<'a, [u8]>> {
-        let Container {
-            head, json, tail, ..
-        } = self.container;
-        let mut parts: Vec<Cow<'a, [u8]>> = Vec::new();
-        let mut copied = 0;
-
+    ///
+    /// # Errors
+    /// A GLB would be longer than its header can say.
+    fn main_file(&self, mut new_uris: Vec<(usize, String)>) -> Result<Vec<Cow<'a, [u8]>>, Problem> {
         new_uris.sort_unstable_by_key(|(buffer, _)| *buffer);
-        for (buffer, uri) in new_uris {
-            let Some(span) = self.uri_spans.get(&buffer) else {
-                continue;
-            };
-            parts.push(head[copied..json.start + span.start].into());
-            let quoted = serde_json::Value::from(uri).to_string();
-            parts.push(quoted.into_bytes().into());
-            copied = json.start + span.end;
-        }
+        let splices = new_uris.into_iter().filter_map(|(buffer, uri)| {
+            let span = self.uri_spans.get(&buffer)?.clone();
+            Some((span, serde_json::Value::from(uri).to_string()))
+        });
+        let splices: Vec<Splice> = splices.collect();
 
-        parts.push(head[copied..].into());
-        let binary = self
-            .buffers
-            .storages
-            .iter()
-            .find(|storage| storage.source == Source::Binary);
-        if let Some(binary) = binary {
-            parts.push(binary.bytes.as_slice().into());
-        }
-        parts.push(tail.as_slice().into());
-        parts
+        // A GLB says how long its text is.
+        let Container { head, json, .. } = self.container;
+        let head: Cow<'a, [u8]> = match splices.is_empty() {
+            true => head.as_slice().into(),
+            false => {
+                let text = spliced(&head[json.clone()], &splices);
+                self.container.with_json(&text, None)?.head.into()
+            }
+        };
+
+        let mut storages = self.buffers.storages.iter();
+        let binary = storages.find(|storage| storage.source == Source::Binary);
+        let binary = binary.map(|binary| binary.bytes.as_slice().into());
+        let tail = self.container.tail.as_slice().into();
+        Ok([head].into_iter().chain(binary).chain([tail]).collect())
     }
 }
 

@@ -244,7 +244,7 @@ impl PrimitiveReader<'_> {
         why: &'static str,
         mut obstacles: Obstacles,
     ) -> Result<Option<Movable>, Problem> {
-        extensions::of_primitive(&self.primitive, self.accessors, &mut obstacles)?;
+        let outline = extensions::of_primitive(&self.primitive, self.accessors, &mut obstacles)?;
         let (position, data) = self.read_attributes(&mut obstacles)?;
         let indices = self.read_indices(&mut obstacles)?;
         if !obstacles.are_none() || indices.is_none() {
@@ -252,6 +252,7 @@ impl PrimitiveReader<'_> {
         }
         let uncommon = Uncommon {
             sparse: data.sparse,
+            outline,
             ..Uncommon::default()
         };
         let vertex_count = position.map_or(0, |position| position.count);

@@ -83,6 +83,18 @@ pub(super) fn is_of_another_place(uri: &str) -> bool {
     })
 }
 
+/// The path that a URI of this place names, with its `..`; `None` if it is not one.
+pub(super) fn path_with_parents(uri: &str) -> Option<PathBuf> {
+    let decoded = percent_decoded(uri)?;
+    let is_path = !decoded.starts_with('/') && !decoded.contains([':', '\\', '\0']);
+    is_path.then(|| {
+        decoded
+            .split('/')
+            .filter(|part| !matches!(*part, "" | "."))
+            .collect()
+    })
+}
+
 fn percent_decoded(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();

@@ -46,6 +46,16 @@ impl<'a> Materials<'a> {
         let mut left = limits.file_bytes.min(MOST_BYTES);
         for (&text, &at) in libraries {
             for path in named_libraries(text, surroundings) {
+                let path = match path {
+                    Ok(path) => path,
+                    Err(word) => {
+                        let path = PathBuf::from(String::from_utf8_lossy(word).into_owned());
+                        let why =
+                            "only files in the folder of the OBJ or below are read".to_owned();
+                        materials.unread.get_or_insert((at, path, why));
+                        continue;
+                    }
+                };
                 if !materials.files.insert(path.clone()) {
                     continue;
                 }
@@ -100,7 +110,10 @@ impl<'a> Materials<'a> {
                     self.set(name, factor.is_some_and(is_transparent));
                 }
                 keyword if is_texture(keyword) => {
-                    self.set(name, keyword == b"map_d");
+                    self.set(
+                        name,
+                        matches!(keyword, b"map_d" | b"map_tr" | b"map_opacity"),
+                    );
                     if textures.len() < MOST_TEXTURES && textures.insert(rest) {
                         self.files.extend(named_texture(rest, folder, surroundings));
                     }

@@ -38,15 +38,18 @@ fn file_name(bytes: &[u8]) -> Option<&Path> {
 
 /// The files that the text of an `mtllib` names: one whose name is all of it, if there is such a file,
 /// as some programs write names with blanks; else one a word.
-pub(super) fn named_libraries(text: &[u8], surroundings: Surroundings<'_>) -> Vec<PathBuf> {
+///
+/// A word that names nothing below the folder is given as it is.
+pub(super) fn named_libraries<'a>(
+    text: &'a [u8],
+    surroundings: Surroundings<'_>,
+) -> Vec<Result<PathBuf, &'a [u8]>> {
     let whole = relative_path(text);
     if let Some(whole) = whole.filter(|whole| surroundings.has(whole)) {
-        return vec![whole];
+        return vec![Ok(whole)];
     }
-    let words = Tokens::of_statement(text, 0);
-    words
-        .filter_map(|word| relative_path(&text[word]))
-        .collect()
+    let words = Tokens::of_statement(text, 0).map(|word| &text[word]);
+    words.map(|word| relative_path(word).ok_or(word)).collect()
 }
 
 /// The file that the text of a texture statement names, as in `-s 1 1 -bm 0.5 stone wall.png`; the
@@ -143,10 +146,17 @@ mod tests {
     #[test]
     fn libraries_are_one_a_word_unless_all_is_a_name() {
         let files = BTreeMap::from([(PathBuf::from("my file.mtl"), Vec::new())]);
-        let named = |text: &str| named_libraries(text.as_bytes(), Surroundings::Memory(&files));
-        assert_eq!(named("my file.mtl"), [Path::new("my file.mtl")]);
-        let words = [Path::new("a.mtl"), Path::new("b/c.mtl")];
-        assert_eq!(named("a.mtl  b\\c.mtl # more"), words);
+        let beside = Surroundings::Memory(&files);
+        fn named<'a>(text: &'a str, beside: Surroundings<'_>) -> Vec<Result<PathBuf, &'a [u8]>> {
+            named_libraries(text.as_bytes(), beside)
+        }
+        assert_eq!(
+            named("my file.mtl", beside),
+            [Ok(PathBuf::from("my file.mtl"))]
+        );
+        let words = ["a.mtl", "b/c.mtl"].map(|word| Ok(PathBuf::from(word)));
+        assert_eq!(named("a.mtl  b\\c.mtl # more", beside), words);
+        assert_eq!(named("../d.mtl", beside), [Err(&b"../d.mtl"[..])]);
     }
 
     #[test]

@@ -78,7 +78,8 @@ impl<'a> Runs<'a> {
 
     /// Takes a line that faces may name.
     pub(super) fn definition(&mut self, span: Range<usize>, kind: Defined) {
-        if self.barred[kind as usize] {
+        // What stands between has another state: a face that came to its place would take it on.
+        if self.barred[kind as usize] || !self.state.is_that_of_last_face() {
             self.end();
         }
         if self.is_open {

@@ -90,19 +90,22 @@ impl<'a> FaceState<'a> {
         true
     }
 
+    /// Whether the state is that of the last face.
+    pub(super) fn is_that_of_last_face(&self) -> bool {
+        let mut pairs = self.now.iter().zip(&self.at_last_face);
+        !self.is_touched || pairs.all(|(now, last)| self.is_same(now, last))
+    }
+
     /// Whether a face here has the state of the last one; it is the last one from now on.
     ///
     /// Compares only the texts of statements that came since: O(their bytes) in all.
     pub(super) fn continues(&mut self) -> bool {
-        if !std::mem::take(&mut self.is_touched) {
-            return true;
+        let is_same = self.is_that_of_last_face();
+        self.is_touched = false;
+        if !is_same {
+            self.at_last_face.clone_from(&self.now);
         }
-        let mut pairs = self.now.iter().zip(&self.at_last_face);
-        if pairs.all(|(now, last)| self.is_same(now, last)) {
-            return true;
-        }
-        self.at_last_face.clone_from(&self.now);
-        false
+        is_same
     }
 
     /// The material that holds here.

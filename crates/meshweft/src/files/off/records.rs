@@ -72,12 +72,27 @@ impl<'a> Reader<'a> {
         let mut lines = self.lines(self.header.body);
         let (vertices, vertex_colours) = self.vertex_lines(&mut lines)?;
         let faces = self.faces(lines.at, true)?;
+        let counted = self.counted_otherwise(lines.at, &faces);
         Ok(OffRecords {
             vertices,
             vertex_colours,
-            faces,
-            stays: false,
+            stays: counted.is_some(),
+            faces: counted.unwrap_or(faces),
         })
+    }
+
+    /// The faces from `at` on by counts, if some of these go over their lines and counts fit as well, but find
+    /// others: then the counts, which leave nothing over, are right.
+    fn counted_otherwise(&self, at: usize, faces: &FaceLines) -> Option<FaceLines> {
+        let spans = |faces: &FaceLines, face| faces.spans.span(face);
+        let goes_over = |face| {
+            let span: Range<usize> = spans(faces, face);
+            self.text[span].iter().any(|&byte| is_line_end(byte))
+        };
+        let all = 0..faces.spans.len();
+        let is_over_lines = all.clone().any(goes_over);
+        let counted = is_over_lines.then(|| self.faces(at, false).ok()).flatten();
+        counted.filter(|counted| all.clone().any(|i| spans(counted, i) != spans(faces, i)))
     }
 
     /// Vertices of so many numbers, wherever lines end; faces from the start of a line on, or if that
@@ -90,7 +105,10 @@ impl<'a> Reader<'a> {
         };
         let of_lines = match shares_line {
             true => None,
-            false => self.faces(tokens.at, true).ok(),
+            false => {
+                let faces = self.faces(tokens.at, true).ok();
+                faces.filter(|faces| self.counted_otherwise(tokens.at, faces).is_none())
+            }
         };
         let is_of_lines = of_lines.is_some();
         let faces = match of_lines {
@@ -425,12 +443,21 @@ mod tests {
         ] {
             assert_eq!(found(text), Ok((vertices(), faces(), false)), "{text}");
         }
+        // The number of edges alone, before no whole vertex: it may be one of that.
         let text = "OFF\n3\n1\n0\n0\n0 0 1 #\n0 0 0\n1 0\n3 0 1 2\n";
         let vertices = vec!["0\n0 0", "1 #\n0 0", "0\n1 0"];
-        assert_eq!(found(text), Ok((vertices, vec!["3 0 1 2"], false)));
+        assert_eq!(found(text), Ok((vertices, vec!["3 0 1 2"], true)));
         let text = "COFF 2 1 0 0 0 0 1 1 1 1 1 0 0 0 0 0 1 2 0 1";
         let vertices = vec!["0 0 0 1 1 1 1", "1 0 0 0 0 0 1"];
         assert_eq!(found(text), Ok((vertices, vec!["2 0 1"], false)));
+    }
+
+    #[test]
+    fn counts_that_leave_nothing_over_are_right_where_faces_go_over_lines() {
+        let text = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3\n0 1 2 3\n1 2 3 3\n0 1 3\n";
+        let (_, faces, stays) = found(text).unwrap();
+        assert_eq!(faces, ["3\n0 1 2", "3\n1 2 3", "3\n0 1 3"]);
+        assert!(stays);
     }
 
     #[test]

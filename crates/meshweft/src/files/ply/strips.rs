@@ -46,6 +46,9 @@ pub(super) fn to_faces(
         })
     })?;
 
+    if strips.faces.is_empty() {
+        return Ok(None);
+    }
     let (start, end) = strips.rows;
     let mut bytes = changed_header(&source[..header.body], strips.faces.len());
     bytes.extend_from_slice(&source[header.body..start]);
@@ -67,7 +70,13 @@ fn convertible(header: &PlyHeader) -> Option<(&Element, ComponentType)> {
     let [property] = element.properties.as_slice() else {
         return None;
     };
-    let is_known = element.corner_list().is_some() && header.element("face").is_none();
+    // What has a row for each strip would lose its strip.
+    let mut others = header.elements.iter();
+    let goes_along = others.any(|other| {
+        !matches!(&*other.name, "tristrips" | "vertex") && other.count == element.count
+    });
+    let is_alone = header.element("face").is_none() && !goes_along;
+    let is_known = element.corner_list().is_some() && is_alone;
     match property.kind {
         PropertyKind::List { item, .. } if is_known && !item.is_float() => Some((element, item)),
         _ => None,

@@ -47,7 +47,15 @@ impl<'a> VrmlReader<'a> {
     fn token(&mut self, token: Token) -> Result<(), Fault> {
         let word = self.word.take();
         match token {
-            Token::Word(span) => self.keyword(span),
+            Token::Word(span) => {
+                // What a PROTO is given may be transparent.
+                let field = word.map(|word| &self.text[word]);
+                let is_look = matches!(field, Some(b"appearance" | b"material"));
+                if is_look && &self.text[span.clone()] == b"IS" {
+                    self.transparent();
+                }
+                self.keyword(span)
+            }
             Token::Text(_) => {
                 self.odd("a string");
                 Ok(())
@@ -94,10 +102,11 @@ impl<'a> VrmlReader<'a> {
             b"ROUTE" => self.route(span.start)?,
             b"PROTO" => {
                 self.odd("PROTO");
-                self.name_after("PROTO")?;
+                let name = self.name_after("PROTO")?;
                 match self.lexer.token()? {
                     Some(Token::Mark(b'[', at)) => {
-                        self.open(at, b']', None, FrameKind::Interface)?
+                        self.open(at, b']', None, FrameKind::Interface)?;
+                        self.own(Some(name));
                     }
                     _ => {
                         let text = "a PROTO without the [ of its interface";
@@ -181,7 +190,7 @@ impl<'a> VrmlReader<'a> {
         let around = self.frames.last().and_then(|frame| frame.name.clone());
         let name = own_name.clone().or(around);
         let at = node.start;
-        let kind = &self.text[node];
+        let kind = &self.text[node.clone()];
 
         let waiting = self.face_set().map(|(_, role)| role.take());
         let points = |role, on_face_set, own_name| {
@@ -226,10 +235,19 @@ impl<'a> VrmlReader<'a> {
             (None, _) => FrameKind::Other,
         };
         self.open(at, b'}', name, kind)?;
-        if let Some(frame) = self.frames.last_mut() {
-            frame.own_name = own_name;
+        self.own(own_name);
+        // A PROTO with a transparent material in it.
+        if self.scene.transparent.contains(&self.text[node]) {
+            self.transparent();
         }
         Ok(())
+    }
+
+    /// Gives the node that was just opened its name.
+    fn own(&mut self, name: Option<Range<usize>>) {
+        if let Some(frame) = self.frames.last_mut() {
+            frame.own_name = name;
+        }
     }
 
     fn open(
@@ -272,6 +290,7 @@ impl<'a> VrmlReader<'a> {
                     self.protos += 1;
                     self.scopes.push(HashMap::new());
                     self.open(at, b'}', None, FrameKind::Body)?;
+                    self.own(frame.own_name);
                 }
                 _ => return Err(Fault::malformed(at, "a PROTO without the { of its body")),
             },

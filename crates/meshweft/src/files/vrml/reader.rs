@@ -86,7 +86,7 @@ impl<'a> VrmlReader<'a> {
     }
 
     /// Notes that the material that is open is transparent: so is the `Shape` around it, and what is
-    /// drawn with a `USE` of it.
+    /// drawn with a `USE` of it, or with the `PROTO` that it stands in.
     pub(super) fn transparent(&mut self) {
         for frame in self.frames.iter_mut().rev() {
             if let Some(name) = frame.own_name.clone() {
@@ -101,9 +101,10 @@ impl<'a> VrmlReader<'a> {
 
     /// Notes a `USE` of this name in the `Shape` that is open.
     pub(super) fn used_in_shape(&mut self, name: Range<usize>) {
-        let is_transparent = self.scene.transparent.contains(&self.text[name.clone()]);
+        if self.scene.transparent.contains(&self.text[name.clone()]) {
+            self.transparent();
+        }
         if let Some(shape) = self.shape() {
-            shape.is_transparent |= is_transparent;
             shape.used.push(name);
         }
     }
