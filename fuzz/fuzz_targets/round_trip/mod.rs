@@ -37,7 +37,8 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
     let again = read(output).expect("what is written can be read");
     assert_eq!(document.meshes().len(), again.meshes().len());
     for ((before, entry), now) in before.iter().zip(again.meshes()).zip(document.meshes()) {
-        let after = triangles(entry, entry.vertices_movable);
+        // What was moved may stay from now on, where it could be read in two ways.
+        let after = triangles(entry, now.vertices_movable);
         assert_eq!(*before, after, "the triangles by their old vertex numbers");
         assert_eq!(now.mesh.faces(), entry.mesh.faces());
     }

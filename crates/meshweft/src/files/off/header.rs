@@ -87,8 +87,8 @@ pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader
     let (mut ends_line, mut body) = (true, lines.at);
     match tokens.get(used..).unwrap_or_default() {
         [] => match edges_alone(lines, vertex_count, vertex_numbers) {
-            // Before the numbers of vertices line by line, it may be one of them.
-            Some((after, is_sure)) => (body, has_edges) = (after, is_sure),
+            // It may be one of a vertex, where those do not have a line each.
+            Some(after) => (body, has_edges) = (after, false),
             None => has_edges = false,
         },
         [third, ..] if whole_number(&text[third.clone()]).is_none() => {
@@ -117,26 +117,15 @@ pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader
 }
 
 /// Where a line with nothing but the number of edges ends, if such a line comes next: one number alone
-/// is not a vertex. And whether a whole vertex follows on a line.
-fn edges_alone(
-    lines: &Lines<'_>,
-    vertex_count: usize,
-    vertex_numbers: usize,
-) -> Option<(usize, bool)> {
+/// is not a vertex.
+fn edges_alone(lines: &Lines<'_>, vertex_count: usize, vertex_numbers: usize) -> Option<usize> {
     let mut ahead = lines.clone();
     let line = ahead
         .next()
         .filter(|_| vertex_count > 0 && vertex_numbers > 1)?;
     let mut tokens = lines.tokens(&line);
     whole_number(&lines.text[tokens.next()?])?;
-    if tokens.next().is_some() {
-        return None;
-    }
-
-    let at = ahead.at;
-    let vertex = ahead.next();
-    let is_whole = |line| lines.tokens(&line).count() >= vertex_numbers;
-    Some((at, vertex.is_some_and(is_whole)))
+    tokens.next().is_none().then_some(ahead.at)
 }
 
 /// A number of the header that counts something.

@@ -72,27 +72,26 @@ impl<'a> Reader<'a> {
         let mut lines = self.lines(self.header.body);
         let (vertices, vertex_colours) = self.vertex_lines(&mut lines)?;
         let faces = self.faces(lines.at, true)?;
-        let counted = self.counted_otherwise(lines.at, &faces);
         Ok(OffRecords {
             vertices,
             vertex_colours,
-            stays: counted.is_some(),
-            faces: counted.unwrap_or(faces),
+            stays: self.counts_find_others(lines.at, &faces),
+            faces,
         })
     }
 
-    /// The faces from `at` on by counts, if some of these go over their lines and counts fit as well, but find
-    /// others: then the counts, which leave nothing over, are right.
-    fn counted_otherwise(&self, at: usize, faces: &FaceLines) -> Option<FaceLines> {
-        let spans = |faces: &FaceLines, face| faces.spans.span(face);
-        let goes_over = |face| {
-            let span: Range<usize> = spans(faces, face);
-            self.text[span].iter().any(|&byte| is_line_end(byte))
-        };
-        let all = 0..faces.spans.len();
-        let is_over_lines = all.clone().any(goes_over);
-        let counted = is_over_lines.then(|| self.faces(at, false).ok()).flatten();
-        counted.filter(|counted| all.clone().any(|i| spans(counted, i) != spans(faces, i)))
+    /// Whether some of the faces from `at` on go over their lines, and counts fit as well but find others.
+    fn counts_find_others(&self, at: usize, faces: &FaceLines) -> bool {
+        let all = || (0..faces.spans.len()).map(|face| faces.spans.span(face));
+        let goes_over = |span: Range<usize>| self.text[span].iter().any(|&b| is_line_end(b));
+        if !all().any(goes_over) {
+            return false;
+        }
+        let counted = self.faces(at, false).ok();
+        counted.is_some_and(|counted| {
+            let mut pairs = all().enumerate();
+            pairs.any(|(face, span)| counted.spans.span(face) != span)
+        })
     }
 
     /// Vertices of so many numbers, wherever lines end; faces from the start of a line on, or if that
@@ -105,12 +104,11 @@ impl<'a> Reader<'a> {
         };
         let of_lines = match shares_line {
             true => None,
-            false => {
-                let faces = self.faces(tokens.at, true).ok();
-                faces.filter(|faces| self.counted_otherwise(tokens.at, faces).is_none())
-            }
+            false => self.faces(tokens.at, true).ok(),
         };
         let is_of_lines = of_lines.is_some();
+        let others = of_lines.as_ref();
+        let others = others.is_some_and(|faces| self.counts_find_others(tokens.at, faces));
         let faces = match of_lines {
             Some(faces) => faces,
             None => self.faces(tokens.at, false)?,
@@ -119,7 +117,7 @@ impl<'a> Reader<'a> {
             vertices,
             vertex_colours,
             faces,
-            stays: !self.is_lasting(tokens.at, shares_line, is_of_lines),
+            stays: !self.is_lasting(tokens.at, shares_line, is_of_lines) || others,
         })
     }
 
@@ -453,11 +451,12 @@ mod tests {
     }
 
     #[test]
-    fn counts_that_leave_nothing_over_are_right_where_faces_go_over_lines() {
+    fn what_counts_would_read_otherwise_stays() {
         let text = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3\n0 1 2 3\n1 2 3 3\n0 1 3\n";
-        let (_, faces, stays) = found(text).unwrap();
-        assert_eq!(faces, ["3\n0 1 2", "3\n1 2 3", "3\n0 1 3"]);
-        assert!(stays);
+        assert!(found(text).unwrap().2);
+        // The same with faces that counts do not fit.
+        let text = text.replace("0 1 2 3\n", "0 1 2 9 9\n");
+        assert!(!found(&text).unwrap().2);
     }
 
     #[test]
