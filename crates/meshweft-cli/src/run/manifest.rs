@@ -26,7 +26,13 @@ impl Manifest {
     /// Reads what is in the manifest, and opens it, or a new one, unless nothing is to be written.
     pub(super) fn open(path: &Path, is_dry_run: bool) -> Result<Self> {
         let context = || path.display().to_string();
-        let text = match fs::read(path) {
+        // What is not a file, such as /dev/stdout, holds no list, and may be a pipe that nobody writes.
+        let is_file = fs::metadata(path).map_or(true, |data| data.is_file());
+        let read = match is_file {
+            true => fs::read(path),
+            false => Ok(Vec::new()),
+        };
+        let text = match read {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
             Err(error) => return Err(error).with_context(context),
@@ -261,5 +267,16 @@ mod tests {
             "only {accepted} of {} lists are read",
             CASES / 10
         );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_holds_no_list_and_is_not_read() {
+        // Reading it would never end.
+        let manifest = Manifest::open(Path::new("/dev/zero"), false).unwrap();
+        assert!(manifest.done.is_empty());
+        manifest
+            .add(Path::new("a.obj"), &output("a.obj"), Ok("{}"))
+            .unwrap();
     }
 }

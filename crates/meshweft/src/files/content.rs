@@ -26,6 +26,11 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     /// The values of an attribute that [`attributes`](Self::attributes) lists, in the order in which
     /// vertices and faces now are.
     fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem>;
+    /// A number of where the values of that attribute are stored: meshes with the same number share them.
+    /// `None` if nothing is shared, or that is not known.
+    fn store(&self, _mesh: usize, _info: &AttributeInfo) -> Option<usize> {
+        None
+    }
     /// Does [`Edit::Order`](super::Edit::Order); the caller has checked the orders.
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>);
     /// Does [`Edit::Append`](super::Edit::Append), or changes nothing; the notes of the document as it

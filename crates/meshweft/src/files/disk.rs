@@ -26,10 +26,20 @@ pub fn is_gzip(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
 }
 
+/// Opens a file, and nothing else: a pipe would be waited for, and a device may never end.
+fn opened(path: &Path) -> io::Result<fs::File> {
+    match fs::metadata(path)?.is_file() {
+        true => fs::File::open(path),
+        false => Err(io::Error::other(
+            "it is not a file, but a folder, pipe or device: name a file",
+        )),
+    }
+}
+
 /// Whether a file holds gzip data, whatever it is called.
 pub(super) fn holds_gzip(path: &Path) -> io::Result<bool> {
     let mut start = Vec::new();
-    fs::File::open(path)?.take(2).read_to_end(&mut start)?;
+    opened(path)?.take(2).read_to_end(&mut start)?;
     Ok(start == b"\x1f\x8b")
 }
 
@@ -47,7 +57,7 @@ pub(super) struct Stored {
 
 /// The bytes of a file, or what they decompress to; and its size on the disk.
 fn source(path: &Path, is_gzip: bool) -> io::Result<(Box<dyn Read>, u64)> {
-    let file = fs::File::open(path)?;
+    let file = opened(path)?;
     let size = file.metadata()?.len();
     Ok(match is_gzip {
         true => (
@@ -198,7 +208,7 @@ pub fn remove_abandoned(folder: &Path) {
         }
         let path = entry.path();
         // Its writer holds a lock as long as it lives, or is about to take it and then looks again.
-        if let Ok(file) = fs::File::open(&path)
+        if let Ok(file) = opened(&path)
             && file.try_lock().is_ok()
         {
             let _ = fs::remove_file(path);

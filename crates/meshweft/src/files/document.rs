@@ -1,7 +1,9 @@
 //! A file in memory: its meshes as values, its bytes ready to be patched.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::sync::Mutex;
 
 use super::content::Content;
@@ -57,6 +59,9 @@ pub struct Document {
     is_gzip: bool,
 }
 
+/// One entry a vertex, for all meshes that share them.
+pub(crate) type SharedPositions = Rc<[[f32; 3]]>;
+
 impl Document {
     /// Reads the file and everything it refers to that holds vertices or faces.
     ///
@@ -71,12 +76,6 @@ impl Document {
         let named = Format::of_path(path);
         let in_file = |kind: FileErrorKind| kind.at(Place::File).in_file(path, named);
         let no_access = |error| in_file(FileErrorKind::Io(error));
-        let data = fs::metadata(path).map_err(no_access)?;
-        // A pipe waits for its writer and a device may never end: neither is opened.
-        if !data.is_file() {
-            let text = "it is not a file, but a folder, pipe or device: name a file";
-            return Err(in_file(FileErrorKind::unsupported(text)));
-        }
         let holds_gzip = holds_gzip(path).map_err(no_access)?;
 
         if is_gzip(path) && !holds_gzip {
@@ -86,7 +85,10 @@ impl Document {
         // Nothing large is read to find that it is not known.
         if named.is_none() {
             let start = read_start_as(path, holds_gzip, &options.limits, |_| signature::START);
-            let length = if holds_gzip { u64::MAX } else { data.len() };
+            let length = match holds_gzip {
+                true => u64::MAX,
+                false => fs::metadata(path).map_err(no_access)?.len(),
+            };
             let checked = start.and_then(|start| signature::check_start(&start, length));
             checked.map_err(in_file)?;
         }
@@ -297,18 +299,41 @@ impl Document {
     /// # Panics
     /// If there is no such mesh.
     pub fn positions(&self, mesh: usize) -> Result<Option<Vec<[f32; 3]>>, FileError> {
-        let infos = self.attributes(mesh);
-        let is_position = |info: &&AttributeInfo| {
+        let Some(info) = self.position_info(mesh) else {
+            return Ok(None);
+        };
+        let numbers = self.attribute(mesh, &info)?.to_f32();
+        Ok(Some(numbers.as_chunks().0.to_vec()))
+    }
+
+    /// The positions of every mesh, if all have such; what meshes share is there once.
+    pub(crate) fn all_positions(&self) -> Result<Option<Vec<SharedPositions>>, FileError> {
+        let mut known = BTreeMap::new();
+        let meshes = 0..self.meshes().len();
+        let each = meshes.map(|mesh| {
+            let info = self.position_info(mesh);
+            let store = info.and_then(|info| self.content.store(mesh, &info));
+            if let Some(shared) = store.and_then(|store| known.get(&store)) {
+                return Ok(Some(Rc::clone(shared)));
+            }
+            let positions = self.positions(mesh)?.map(Rc::from);
+            if let (Some(store), Some(positions)) = (store, &positions) {
+                known.insert(store, Rc::clone(positions));
+            }
+            Ok(positions)
+        });
+        each.collect()
+    }
+
+    /// The attribute that is the positions of a mesh.
+    fn position_info(&self, mesh: usize) -> Option<AttributeInfo> {
+        let is_position = |info: &AttributeInfo| {
             info.semantic == Semantic::Position
                 && info.morph_target.is_none()
                 && info.domain == Domain::Vertex
                 && info.components == 3
         };
-        let Some(info) = infos.iter().find(is_position) else {
-            return Ok(None);
-        };
-        let numbers = self.attribute(mesh, info)?.to_f32();
-        Ok(Some(numbers.as_chunks().0.to_vec()))
+        self.attributes(mesh).into_iter().find(is_position)
     }
 
     /// Changes the document in memory; [`write`](Self::write) writes it.

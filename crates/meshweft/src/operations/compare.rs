@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use serde_json::{Value, json};
 
@@ -17,14 +18,15 @@ use crate::files::{Document, FileError, MeshEntry, Note};
 /// [`FileError`] if positions cannot be read.
 ///
 /// # Complexity
-/// Time O(faces · log faces), space 36 bytes a face and 12 a vertex of both, and the counts.
+/// Time O(faces · log faces), space 36 bytes a face and 12 a vertex of both, and the counts; vertices that
+/// meshes share are counted once.
 pub fn compare(
     a: &Document,
     b: &Document,
     models: &[CacheModel],
 ) -> Result<CompareReport, FileError> {
     // Positions tell vertices apart whatever their numbers; without them the numbers must do.
-    let positions = [positions(a)?, positions(b)?];
+    let positions = [a.all_positions()?, b.all_positions()?];
     let is_by_position = positions.iter().all(Option::is_some);
     let by_position = |side: usize| positions[side].as_deref().filter(|_| is_by_position);
     let [only_in_a, only_in_b] = differences(
@@ -42,14 +44,8 @@ pub fn compare(
     })
 }
 
-/// The positions of each mesh, if all have such.
-fn positions(document: &Document) -> Result<Option<Vec<Positions>>, FileError> {
-    let meshes = 0..document.meshes().len();
-    meshes.map(|mesh| document.positions(mesh)).collect()
-}
-
 /// One entry a vertex.
-type Positions = Vec<[f32; 3]>;
+type Positions = Rc<[[f32; 3]]>;
 
 /// What [`compare`] found.
 #[derive(Debug, Clone)]

@@ -98,16 +98,25 @@ impl Attributes {
         vertex_count: usize,
         buffers: &Buffers,
     ) -> Result<Attribute, Problem> {
-        // Of two members with the same name the last counts.
-        let mut named = self.named_of(mesh).iter().rev();
-        let found = named.find(|named| {
-            named.morph_target == info.morph_target && self.info(named, json) == *info
-        });
-        let Some(found) = found else {
+        let Some(found) = self.find(mesh, info, json) else {
             return Err(no_attribute(info));
         };
         let values = self.stored(found).values(buffers, vertex_count)?;
         Ok(Attribute::new(info.clone(), values))
+    }
+
+    /// Which of all accessors an attribute of a mesh has.
+    pub(super) fn store(&self, mesh: usize, info: &AttributeInfo, json: &[u8]) -> Option<usize> {
+        let found = self.find(mesh, info, json)?;
+        Some(found.elements as usize)
+    }
+
+    fn find(&self, mesh: usize, info: &AttributeInfo, json: &[u8]) -> Option<&NamedElements> {
+        // Of two members with the same name the last counts.
+        let mut named = self.named_of(mesh).iter().rev();
+        named.find(|named| {
+            named.morph_target == info.morph_target && self.info(named, json) == *info
+        })
     }
 
     fn named_of(&self, mesh: usize) -> &[NamedElements] {

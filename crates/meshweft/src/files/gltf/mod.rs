@@ -364,6 +364,10 @@ impl Content for GltfFile {
             .read(mesh, info, self.json(), vertex_count, &self.buffers)
     }
 
+    fn store(&self, mesh: usize, info: &AttributeInfo) -> Option<usize> {
+        self.view.attributes.store(mesh, info, self.json())
+    }
+
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>) {
         let mut rewritten = Vec::new();
         if let Some(faces) = faces.filter(|order| !order.is_identity()) {
