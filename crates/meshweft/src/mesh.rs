@@ -2,6 +2,8 @@
 
 use crate::error::MeshError;
 use crate::faces::Faces;
+#[cfg(feature = "files")]
+use crate::permutation::renumber;
 use crate::permutation::{FaceOrder, VertexOrder};
 
 /// Vertices and faces whose indices are in range.
@@ -130,6 +132,13 @@ impl Mesh {
         }
         order.renumber_in_place(&mut self.faces);
         self
+    }
+
+    /// The faces of a mesh without positions get the new numbers of their vertices.
+    #[cfg(feature = "files")]
+    pub(crate) fn renumber_faces(&mut self, old_to_new: &[u32]) {
+        debug_assert!(self.positions.is_empty(), "positions would stay");
+        renumber(&mut self.faces, old_to_new);
     }
 
     /// The same mesh with its vertices stored in another order and the faces renumbered to match.

@@ -384,10 +384,14 @@ impl VertexOrder {
 
     /// As [`renumber`](Self::renumber), without a copy of the faces.
     pub(crate) fn renumber_in_place(&self, faces: &mut [[u32; 3]]) {
-        let old_to_new = self.permutation.old_to_new();
-        for face in faces {
-            *face = face.map(|vertex| old_to_new[vertex as usize]);
-        }
+        renumber(faces, &self.permutation.old_to_new());
+    }
+}
+
+/// Gives each corner the new number of its vertex.
+pub(crate) fn renumber(faces: &mut [[u32; 3]], old_to_new: &[u32]) {
+    for face in faces {
+        *face = face.map(|vertex| old_to_new[vertex as usize]);
     }
 }
 

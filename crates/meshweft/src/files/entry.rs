@@ -230,6 +230,12 @@ impl MeshEntry {
         );
         self.mesh = std::mem::take(&mut self.mesh).into_vertex_order(order);
     }
+
+    /// As [`apply_vertices`](Self::apply_vertices), of an order whose inverse is known: of many entries that
+    /// share their vertices, each takes as long as it has faces.
+    pub(super) fn renumber_vertices(&mut self, old_to_new: &[u32]) {
+        self.mesh.renumber_faces(old_to_new);
+    }
 }
 
 /// A run of records as a mesh of its own.

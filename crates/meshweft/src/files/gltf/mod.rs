@@ -334,7 +334,7 @@ impl GltfFile {
         }
         sparse::renumber(&mut self.buffers, &group.sparse, &old_to_new);
         for &member in &group.meshes {
-            self.view.entries.meshes[member].apply_vertices(order);
+            self.view.entries.meshes[member].renumber_vertices(&old_to_new);
         }
     }
 }
