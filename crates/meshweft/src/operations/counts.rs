@@ -3,6 +3,7 @@
 use crate::cache::{self, CacheModel, ratio};
 use crate::faces::Faces;
 use crate::first_use::Compact;
+#[cfg(feature = "files")]
 use crate::order::Target;
 
 /// Bytes of a vertex record that overfetch is counted for: position, normal, texture coordinates.
@@ -64,6 +65,7 @@ impl Counts {
     }
 
     /// The misses of those of the counted models that `target` stands for, added up.
+    #[cfg(feature = "files")]
     pub(super) fn misses_of(&self, target: Target) -> u64 {
         let models = target.models();
         let of_target = self.misses.iter().filter(|(m, _)| models.contains(m));
