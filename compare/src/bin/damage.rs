@@ -241,7 +241,12 @@ fn is_about_the_whole(error: &FileError) -> bool {
     let is_json = |problem: &str| problem.contains(" line ") && problem.contains(" column ");
     match &error.kind {
         FileErrorKind::Io(_) => true,
-        FileErrorKind::Malformed { problem } => is_json(problem),
+        // It is of another kind altogether.
+        FileErrorKind::UnknownFormat => true,
+        FileErrorKind::Unsupported { feature } => feature.starts_with("this is "),
+        FileErrorKind::Malformed { problem } => {
+            is_json(problem) || problem.starts_with("no line is an OBJ statement")
+        }
         _ => false,
     }
 }
