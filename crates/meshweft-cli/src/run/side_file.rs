@@ -119,6 +119,8 @@ pub(crate) struct PendingFile {
     /// `None` where there is no file to rename, such as for /dev/stdout.
     temporary: Option<PathBuf>,
     text: String,
+    /// Locked as long as it is needed: another run would take it for abandoned.
+    file: Option<fs::File>,
 }
 
 impl PendingFile {
@@ -128,6 +130,7 @@ impl PendingFile {
             path: path.to_owned(),
             temporary: None,
             text,
+            file: None,
         };
         if fs::metadata(path).is_ok_and(|data| !data.is_file()) {
             return Ok(pending);
@@ -154,9 +157,12 @@ impl PendingFile {
             }
             file => file?,
         };
+        // Not every file system has locks.
+        let _ = file.lock();
         pending.temporary = Some(temporary);
         file.write_all(pending.text.as_bytes())?;
         file.sync_all()?;
+        pending.file = Some(file);
         Ok(pending)
     }
 
