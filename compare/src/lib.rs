@@ -12,6 +12,7 @@ use meshweft::{CacheModel, Mesh, cache};
 
 pub mod counting;
 pub mod oracle;
+pub mod process;
 pub mod rivals;
 pub mod timing;
 

@@ -23,8 +23,9 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 
+use compare::process;
 use compare::timing::median;
 use flate2::read::MultiGzDecoder;
 use meshweft::files::Format;
@@ -223,31 +224,11 @@ fn measured(
 
 /// Processor seconds and peak kilobytes of one run; `None` if it does not end well.
 fn run(program: &Path, input: &Path, output: &Path) -> io::Result<Option<(f64, f64)>> {
-    let child = Command::new(program)
-        .arg("optimize")
-        .arg(input)
-        .arg("-o")
-        .arg(output)
-        .args("--cache fifo:12 --jobs 1 --threads 1 --quiet".split(' '))
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()?;
-    let pid = libc::pid_t::try_from(child.id()).map_err(io::Error::other)?;
-    let mut status = 0;
-    // SAFETY: a record of numbers, of which any may be 0.
-    let mut usage: libc::rusage = unsafe { std::mem::zeroed() };
-    // SAFETY: it writes to both places and keeps neither. The child is not waited for elsewhere.
-    let ended = unsafe { libc::wait4(pid, &raw mut status, 0, &raw mut usage) };
-    if ended != pid {
-        return Err(io::Error::last_os_error());
-    }
-    let seconds = |time: libc::timeval| time.tv_sec as f64 + time.tv_usec as f64 / 1e6;
-    let cost = (
-        seconds(usage.ru_utime) + seconds(usage.ru_stime),
-        usage.ru_maxrss as f64,
-    );
-    Ok((status == 0).then_some(cost))
+    let mut command = Command::new(program);
+    command.arg("optimize").arg(input).arg("-o").arg(output);
+    command.args("--cache fifo:12 --jobs 1 --threads 1 --quiet".split(' '));
+    let cost = process::run(&mut command)?;
+    Ok(cost.map(|cost| (cost.user + cost.system, cost.peak)))
 }
 
 fn print_row<'a>(format: &str, files: impl Iterator<Item = &'a Measured> + Clone, rounds: usize) {

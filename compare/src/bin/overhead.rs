@@ -9,9 +9,10 @@
 //! time and of the ratio within a round.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 use std::{env, io};
 
+use compare::process;
 use compare::timing::median;
 use meshweft::Limits;
 use meshweft::files::{Document, Edit};
@@ -92,19 +93,8 @@ fn measure(program: &Path, file: &Path, rounds: usize) -> Result<(), String> {
 
 /// The user time of a process in seconds.
 fn user_time(command: &mut Command) -> io::Result<f64> {
-    let command = command.env("RAYON_NUM_THREADS", "1").stdin(Stdio::null());
-    let child = command
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()?;
-    let pid = libc::pid_t::try_from(child.id()).map_err(io::Error::other)?;
-    let mut status = 0;
-    // SAFETY: a record of numbers, of which any may be 0.
-    let mut usage: libc::rusage = unsafe { std::mem::zeroed() };
-    // SAFETY: it writes to both places and keeps neither. The child is not waited for elsewhere.
-    let ended = unsafe { libc::wait4(pid, &raw mut status, 0, &raw mut usage) };
-    if ended != pid || status != 0 {
-        return Err(io::Error::other(format!("{command:?} has failed")));
+    match process::run(command.env("RAYON_NUM_THREADS", "1"))? {
+        Some(cost) => Ok(cost.user),
+        None => Err(io::Error::other(format!("{command:?} has failed"))),
     }
-    Ok(usage.ru_utime.tv_sec as f64 + usage.ru_utime.tv_usec as f64 / 1e6)
 }
