@@ -325,7 +325,7 @@ fn a_file_that_somebody_has_changed_since_is_not_replaced() {
         );
         assert_eq!(fs::read(&path).unwrap(), bytes);
 
-        // Elsewhere it is no matter, and what it has written itself it may replace.
+        // Elsewhere it does not matter, and what it has written itself it may replace.
         let output = folder.0.join("out/scene.gltf");
         document.write(&output).unwrap();
         let mut again = ordered(&output);

@@ -12,7 +12,7 @@ use super::uri::{is_of_another_place, relative_path};
 pub(super) struct Companions {
     /// Paths below the folder of the glTF.
     pub(super) files: BTreeSet<PathBuf>,
-    /// The first URI that is none of a file there, why, and how many more there are.
+    /// The first URI that names no file there, why, and how many more there are.
     pub(super) refused: Option<(String, usize)>,
 }
 

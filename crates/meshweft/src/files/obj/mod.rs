@@ -40,7 +40,7 @@
 //!
 //! [`reader`] finds the statements and [`statement`] cuts them, [`runs`] and [`state`] tell which faces
 //! may change places, [`comments`] keeps data in comments,
-//! [`mod@materials`] and [`paths`] read what stands beside, [`notation`] writes corners, [`attributes`] reads values.
+//! [`mod@materials`] and [`paths`] read the other files that it names, [`notation`] writes corners, [`attributes`] reads values.
 
 mod attributes;
 mod comments;

@@ -57,7 +57,7 @@ impl<'a> FaceState<'a> {
         }
     }
 
-    /// Takes a statement with the text `rest` after its keyword; `false` if it is none that holds for
+    /// Takes a statement with the text `rest` after its keyword; `false` if it does not hold for
     /// faces.
     pub(super) fn set(&mut self, keyword: &[u8], rest: Range<usize>) -> bool {
         match keyword {
