@@ -78,7 +78,11 @@ fn used_vertices(faces: &[[u32; 3]]) -> usize {
     used.len()
 }
 
-const GPUS: [BatchModel; 3] = [BatchModel::NVIDIA, BatchModel::AMD, BatchModel::INTEL];
+const GPUS: [BatchModel; 3] = [
+    BatchModel::MESHOPT_NVIDIA,
+    BatchModel::AMD,
+    BatchModel::INTEL,
+];
 
 /// Numbers below a bound, the same in every run (xorshift by George Marsaglia).
 struct Numbers(u64);

@@ -10,7 +10,7 @@ const TARGETS: [Target; 7] = [
     Target::Cache(CacheModel::fifo(12)),
     Target::Cache(CacheModel::fifo(32)),
     Target::Cache(CacheModel::controllable(12)),
-    Target::Cache(CacheModel::NVIDIA),
+    Target::Cache(CacheModel::Nvidia),
     Target::Cache(CacheModel::AMD),
     Target::Cache(CacheModel::INTEL),
 ];

@@ -50,7 +50,7 @@ fn search(mesh: &Mesh, size: u32, flags: u8) {
         0 => CacheModel::fifo(size).into(),
         1 => CacheModel::lru(size).into(),
         2 => CacheModel::controllable(size).into(),
-        3 => CacheModel::NVIDIA.into(),
+        3 => CacheModel::Nvidia.into(),
         4 => CacheModel::AMD.into(),
         5 => CacheModel::INTEL.into(),
         _ => Target::Universal,

@@ -47,7 +47,7 @@ fn run() -> Result<(), String> {
     if targets.is_empty() {
         targets = [12, 16, 32].map(|k| CacheModel::fifo(k).into()).to_vec();
         targets.push(CacheModel::controllable(12).into());
-        targets.extend([CacheModel::NVIDIA, CacheModel::AMD, CacheModel::INTEL].map(Target::from));
+        targets.extend([CacheModel::Nvidia, CacheModel::AMD, CacheModel::INTEL].map(Target::from));
         targets.push(Target::Universal);
     }
     if efforts.is_empty() {

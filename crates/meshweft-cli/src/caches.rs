@@ -7,7 +7,7 @@ use meshweft::operations::USUAL_CACHES;
 #[derive(Debug, Args)]
 pub(crate) struct Caches {
     /// A cache to count for, may be repeated: fifo:K, lru:K, controllable:K, nvidia, amd,
-    /// intel, batch:K/V/F (cache size, most vertices and most faces of a batch; 0 for no limit)
+    /// intel, meshopt-nvidia, batch:K/V/F (cache size, most vertices and most faces of a batch; 0 for no limit)
     /// [default: fifo:12 fifo:16 fifo:32 nvidia amd intel]
     #[arg(long = "cache", value_name = "MODEL")]
     models: Vec<CacheModel>,

@@ -38,7 +38,7 @@ fn assert_misses_in_range(faces: &[[u32; 3]], size: u32) {
         CacheModel::fifo(size),
         CacheModel::lru(size),
         CacheModel::controllable(size),
-        CacheModel::NVIDIA,
+        CacheModel::Nvidia,
         CacheModel::AMD,
         CacheModel::INTEL,
         CacheModel::Batch(BatchModel::new(size, size, 5)),

@@ -19,7 +19,7 @@ fn target() -> impl Strategy<Value = Target> {
         3 => size.clone().prop_map(|size| CacheModel::fifo(size).into()),
         1 => size.clone().prop_map(|size| CacheModel::lru(size).into()),
         2 => size.prop_map(|size| CacheModel::controllable(size).into()),
-        2 => prop::sample::select(vec![CacheModel::NVIDIA, CacheModel::AMD, CacheModel::INTEL])
+        2 => prop::sample::select(vec![CacheModel::Nvidia, CacheModel::AMD, CacheModel::INTEL])
             .prop_map(Target::from),
         1 => batch.prop_map(|(cache_size, batch_vertices, batch_faces)| {
             let batch_vertices = if batch_vertices < 3 { 0 } else { batch_vertices };
@@ -120,7 +120,7 @@ fn more_effort_misses_less() {
         CacheModel::fifo(12).into(),
         CacheModel::fifo(32).into(),
         CacheModel::controllable(12).into(),
-        CacheModel::NVIDIA.into(),
+        CacheModel::Nvidia.into(),
         CacheModel::AMD.into(),
     ] {
         let misses = [Effort::Fast, Effort::Best].map(|effort| {

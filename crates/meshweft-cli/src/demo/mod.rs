@@ -40,7 +40,7 @@ const PICTURE: &str = "before-after.png";
 /// Cache sizes of the columns.
 const SIZES: [u32; 3] = [12, 16, 32];
 /// GPU models of the columns, counted on the order made for the first size.
-const GPUS: [CacheModel; 3] = [CacheModel::NVIDIA, CacheModel::AMD, CacheModel::INTEL];
+const GPUS: [CacheModel; 3] = [CacheModel::Nvidia, CacheModel::AMD, CacheModel::INTEL];
 
 /// The orders of the rows, made for a FIFO cache of a size where that matters.
 const METHODS: [fn(u32) -> Method; 6] = [

@@ -12,7 +12,8 @@ use crate::usage::Usage;
 // No doc comment: clap would take it for the text about a verb.
 #[derive(Debug, Args)]
 pub(crate) struct Ordering {
-    /// What to order for: universal, fifo:K, lru:K, controllable:K, nvidia, amd, intel, or batch:K/V/F
+    /// What to order for: universal, fifo:K, lru:K, controllable:K, nvidia, amd, intel, meshopt-nvidia, or
+    /// batch:K/V/F
     ///
     /// universal is good for every cache size and GPU. An order made for a larger cache than the
     /// device has is bad, one made for a smaller cache loses little.
@@ -179,7 +180,7 @@ mod tests {
     fn flags_become_options() {
         let found = options("--effort max --seed 7 --cache nvidia --keep-corners").unwrap();
         let expected = Options {
-            target: meshweft::CacheModel::NVIDIA.into(),
+            target: meshweft::CacheModel::Nvidia.into(),
             effort: order::Effort::Max,
             seed: 7,
             keep_corners: true,

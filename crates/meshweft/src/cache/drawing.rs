@@ -4,6 +4,7 @@ use super::batch::Batches;
 use super::fifo::Fifo;
 use super::lru::Lru;
 use super::model::CacheModel;
+use super::nvidia::Batcher;
 
 /// The state of a cache while faces are drawn.
 #[derive(Debug, Clone)]
@@ -11,6 +12,7 @@ pub(crate) enum Drawing {
     Fifo(Fifo),
     Lru(Lru),
     Batches(Batches),
+    Nvidia(Batcher),
 }
 
 impl Drawing {
@@ -20,6 +22,7 @@ impl Drawing {
             CacheModel::Fifo { size } => Some(Self::Fifo(Fifo::new(size, vertex_count))),
             CacheModel::Lru { size } => Some(Self::Lru(Lru::new(size, vertex_count))),
             CacheModel::Batch(batch) => Some(Self::Batches(Batches::new(batch, vertex_count))),
+            CacheModel::Nvidia => Some(Self::Nvidia(Batcher::new())),
             CacheModel::Controllable { .. } => None,
         }
     }
@@ -30,6 +33,7 @@ impl Drawing {
             Self::Fifo(cache) => face.map(|v| !cache.contains(v)),
             Self::Lru(cache) => face.map(|v| !cache.contains(v)),
             Self::Batches(cache) => cache.missing(face),
+            Self::Nvidia(batcher) => batcher.missing(face),
         }
     }
 
@@ -48,6 +52,9 @@ impl Drawing {
             Self::Batches(cache) => {
                 numbered.for_each(|(number, &face)| visit(number, cache.draw(face)));
             }
+            Self::Nvidia(batcher) => {
+                numbered.for_each(|(number, face)| visit(number, batcher.draw(face, 0)));
+            }
         }
     }
 
@@ -57,6 +64,7 @@ impl Drawing {
             Self::Fifo(cache) => misses(&face, |v| cache.miss(v)),
             Self::Lru(cache) => misses(&face, |v| cache.miss(v)),
             Self::Batches(cache) => cache.draw(face),
+            Self::Nvidia(batcher) => batcher.draw(&face, 0),
         }
     }
 }

@@ -210,7 +210,7 @@ mod tests {
             CacheModel::fifo(16),
             CacheModel::lru(16),
             CacheModel::controllable(16),
-            CacheModel::NVIDIA,
+            CacheModel::Nvidia,
         ] {
             let empty = report(&[], model);
             assert_eq!((empty.misses, empty.acmr(), empty.atvr()), (0, 0.0, 0.0));

@@ -4,7 +4,7 @@
 //! when a face is drawn; a *miss* transforms (and fetches) it again. Four kinds of cache are
 //! modelled: first-in first-out (fixed-function hardware), least recently used, *controllable* (the
 //! program decides which vertex leaves; Lin & Yu 2006, doi:10.1109/TVCG.2006.59) and today's GPUs,
-//! which collect faces in batches. Read [`CacheModel`] first, then [`report`].
+//! which collect faces in batches: three by meshoptimizer's settings, and [`nvidia`] exactly. Read [`CacheModel`] first, then [`report`].
 //!
 //! | metric | is |
 //! |---|---|
@@ -19,6 +19,7 @@ mod fifo;
 mod lru;
 mod metrics;
 mod model;
+pub mod nvidia;
 
 pub use controllable::{CacheEvent, Schedule, ScheduleError};
 pub(crate) use drawing::Drawing;

@@ -14,7 +14,7 @@ pub const USUAL_CACHES: [CacheModel; 6] = [
     CacheModel::fifo(12),
     CacheModel::fifo(16),
     CacheModel::fifo(32),
-    CacheModel::NVIDIA,
+    CacheModel::Nvidia,
     CacheModel::AMD,
     CacheModel::INTEL,
 ];

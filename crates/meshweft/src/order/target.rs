@@ -29,7 +29,7 @@ impl Target {
         CacheModel::fifo(24),
         CacheModel::fifo(32),
         CacheModel::fifo(64),
-        CacheModel::NVIDIA,
+        CacheModel::Nvidia,
         CacheModel::AMD,
         CacheModel::INTEL,
     ];

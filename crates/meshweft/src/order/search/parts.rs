@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn batches_stay_aligned_across_parts() {
-        for model in [CacheModel::NVIDIA, CacheModel::AMD] {
+        for model in [CacheModel::Nvidia, CacheModel::AMD] {
             let settings = preset(Target::Cache(model), Effort::Fast);
             let caller = Caller {
                 progress: &(),

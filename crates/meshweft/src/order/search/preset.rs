@@ -45,6 +45,8 @@ pub(super) fn preset(target: Target, effort: Effort) -> Settings {
                 fifo(batch.cache_size(), effort)
             }
             CacheModel::Batch(batch) => batches(batch, effort),
+            // Which faces share a batch. Where they stand in it is left to the pass inside batches.
+            CacheModel::Nvidia => batches(BatchModel::MESHOPT_NVIDIA, effort),
         },
     }
 }
