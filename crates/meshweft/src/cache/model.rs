@@ -107,7 +107,7 @@ pub enum CacheModel {
     },
     /// A GPU that collects faces in batches and starts each with an empty cache.
     Batch(BatchModel),
-    /// An NVIDIA card as it was probed: see [`nvidia`](crate::cache::nvidia). Misses are invocations of
+    /// An NVIDIA card as it was probed: see [`nvidia`]. Misses are invocations of
     /// the vertex shader.
     Nvidia,
 }

@@ -8,6 +8,7 @@ pub mod baselines;
 pub mod bogomjakov_gotsman;
 mod greedy;
 mod grid;
+mod in_batches;
 mod k_cache_reorder;
 mod optimizer;
 mod polygons;
@@ -17,6 +18,7 @@ mod turn_corners;
 mod vertex_fetch;
 
 pub use grid::Grid;
+pub use in_batches::InBatches;
 pub use k_cache_reorder::{KCacheReorder, Mode};
 pub use optimizer::Optimizer;
 #[cfg(feature = "tuning")]

@@ -2,6 +2,7 @@
 
 use crate::cache::CacheModel;
 use crate::faces::Faces;
+use crate::order::in_batches;
 use crate::order::k_cache_reorder::KCacheReorder;
 use crate::order::polygons::check_starts;
 use crate::order::search::{self, Search};
@@ -124,7 +125,15 @@ impl Optimizer {
             budget: self.budget,
             progress,
         };
-        search.face_order(faces, starts)
+        let order = search.face_order(faces, starts);
+        in_batches::finish(
+            self.target,
+            self.effort,
+            self.keep_corners,
+            faces,
+            starts,
+            order,
+        )
     }
 
     /// Whether it searches, where nothing limits its time; otherwise a greedy does it all in one pass.

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::cache::{self, CacheModel, ParseCacheModelError};
+#[cfg(doc)]
+use crate::cache::nvidia::DrawCounts;
+use crate::cache::{self, CacheModel, ParseCacheModelError, nvidia};
 use crate::faces::Faces;
 
 /// The caches that an order is made for.
@@ -41,6 +43,22 @@ impl Target {
             Self::Universal => &Self::UNIVERSAL,
             Self::Cache(model) => std::slice::from_ref(model),
         }
+    }
+
+    /// What this face order costs: the misses, added up over [`models`](Self::models); for
+    /// [`CacheModel::Nvidia`] also the warps and the setup cycles, weighed so that a closed mesh has as much
+    /// of each as of invocations where all are least ([`DrawCounts::cost`]).
+    ///
+    /// # Complexity
+    /// One [`cache::misses`] a model.
+    #[must_use]
+    pub fn cost<'a>(&self, faces: impl Into<Faces<'a>>) -> u64 {
+        let faces = faces.into();
+        let cost = |&model| match model {
+            CacheModel::Nvidia => nvidia::counts(faces).cost(),
+            model => cache::misses(faces, model),
+        };
+        self.models().iter().map(cost).sum()
     }
 
     /// The misses of this face order, added up over [`models`](Self::models).

@@ -7,8 +7,8 @@ use crate::index::index32;
 pub(crate) const BATCH_FACES: u32 = 32;
 /// Most vertices in a batch: the threads of a warp.
 pub(crate) const LANES: u32 = 32;
-/// How many corners after its last use a vertex is still found.
-const WINDOW: u32 = 42;
+/// How many corners after its last use a vertex is still lookup.
+pub(crate) const WINDOW: u32 = 42;
 /// More than the corners of a batch, so that a free entry is always near.
 const ENTRIES: usize = 256;
 
@@ -36,6 +36,8 @@ struct Lookup {
     /// The lane of a corner that hits, or that an earlier corner of the primitive takes.
     lanes: [u32; 3],
     is_miss: [bool; 3],
+    /// The entry of a corner that hits.
+    entries: [usize; 3],
     misses: u32,
     /// The corner that the last change of block or instance was at, and what it changed to.
     run: u32,
@@ -89,11 +91,28 @@ impl Batcher {
         }
     }
 
+    /// How many primitives the open batch has.
+    #[inline]
+    pub(crate) fn primitives(&self) -> u32 {
+        self.primitives
+    }
+
+    /// Invocations so far.
+    pub(crate) fn invocations(&self) -> u64 {
+        self.totals.invocations
+    }
+
+    /// Whether this face goes into the open batch.
+    #[inline]
+    pub(crate) fn fits(&self, face: [u32; 3]) -> bool {
+        self.primitives < BATCH_FACES && self.has_room(self.find(&face, 0).misses)
+    }
+
     /// Which corners miss if this face is drawn next.
     pub(crate) fn missing(&self, corners: [u32; 3]) -> [bool; 3] {
-        let found = self.find(&corners, 0);
-        match self.has_room(found.misses) {
-            true => found.is_miss,
+        let lookup = self.find(&corners, 0);
+        match self.has_room(lookup.misses) {
+            true => lookup.is_miss,
             false => Self::find_in_empty(&corners, 0, self.key).is_miss,
         }
     }
@@ -117,13 +136,17 @@ impl Batcher {
 
     /// Draws a primitive of 2 or 3 corners; returns how many missed.
     #[inline]
-    pub(crate) fn draw(&mut self, corners: &[u32], instance: u32) -> u8 {
+    pub(crate) fn draw<const CORNERS: usize>(
+        &mut self,
+        corners: &[u32; CORNERS],
+        instance: u32,
+    ) -> u8 {
         // Into this batch or the next.
-        let mut found = self.find(corners, instance);
-        if !self.has_room(found.misses) {
+        let mut lookup = self.find(corners, instance);
+        if !self.has_room(lookup.misses) {
             let key = self.key;
             self.close();
-            found = Self::find_in_empty(corners, instance, key);
+            lookup = Self::find_in_empty(corners, instance, key);
         }
         if self.primitives == 0 {
             self.totals.batches += 1;
@@ -131,37 +154,44 @@ impl Batcher {
         }
 
         // Lanes for the misses, in corner order; a vertex twice in the primitive is one.
-        let first_lane = self.lanes;
-        let mut lanes = [0; 3];
+        let mut lanes = [0; CORNERS];
+        let mut misses = 0;
         for (i, &vertex) in corners.iter().enumerate() {
-            lanes[i] = match found.is_miss[i] {
-                true => {
-                    self.lanes += 1;
-                    self.lanes - 1
+            lanes[i] = match (lookup.is_miss[i], lookup.lanes[i]) {
+                (true, _) => {
+                    misses += 1;
+                    self.lanes + misses - 1
                 }
-                false => match found.lanes[i] {
-                    earlier @ SAME_PRIMITIVE.. => lanes[(earlier - SAME_PRIMITIVE) as usize],
-                    lane => lane,
-                },
+                (false, earlier @ SAME_PRIMITIVE..) => lanes[(earlier - SAME_PRIMITIVE) as usize],
+                (false, lane) => lane,
             };
-            self.remember(vertex, instance, lanes[i]);
-            self.corners += 1;
+
+            // Note the use.
+            if lookup.is_miss[i] {
+                self.enter(vertex, instance, lanes[i], self.corners + index32(i));
+            } else {
+                let at = match lookup.lanes[i] {
+                    SAME_PRIMITIVE.. => self.entry(vertex),
+                    _ => lookup.entries[i],
+                };
+                self.entries[at].last = self.corners + index32(i);
+            }
         }
-        self.run = found.run;
-        self.key = found.key;
+        self.lanes += misses;
+        self.corners += index32(CORNERS);
+        self.run = lookup.run;
+        self.key = lookup.key;
         self.primitives += 1;
 
         // Count.
         self.totals.primitives += 1;
-        self.totals.invocations += u64::from(self.lanes - first_lane);
-        if let [a, b, c] = lanes
-            && corners.len() == 3
-        {
+        self.totals.invocations += u64::from(misses);
+        if let [a, b, c] = lanes[..] {
             self.totals.setup_cycles += u64::from(self.setup.add([a, b, c]));
         }
         #[expect(clippy::cast_possible_truncation, reason = "at most three")]
         {
-            (self.lanes - first_lane) as u8
+            misses as u8
         }
     }
 
@@ -171,48 +201,50 @@ impl Batcher {
 
     /// What these corners find in the open batch.
     #[inline]
-    fn find(&self, corners: &[u32], instance: u32) -> Lookup {
-        let mut found = Lookup {
+    fn find<const CORNERS: usize>(&self, corners: &[u32; CORNERS], instance: u32) -> Lookup {
+        let mut lookup = Lookup {
             run: self.run,
             key: self.key,
             ..Lookup::default()
         };
         for (i, &vertex) in corners.iter().enumerate() {
             let now = self.corners + index32(i);
-            found.enter(now, vertex, instance);
+            lookup.come_to(now, vertex, instance);
 
             // An earlier corner of the primitive, or the batch's last use.
-            if let Some(lane) = found.same_primitive(corners, i, self.corners) {
-                found.lanes[i] = lane;
+            if let Some(lane) = lookup.same_primitive(corners, i, self.corners) {
+                lookup.lanes[i] = lane;
                 continue;
             }
-            let entry = &self.entries[self.entry(vertex)];
+            let at = self.entry(vertex);
+            let entry = &self.entries[at];
             let is_hit =
-                entry.batch == self.batch && entry.last >= found.run && now - entry.last <= WINDOW;
-            found.lanes[i] = entry.lane;
-            found.is_miss[i] = !is_hit;
-            found.misses += u32::from(!is_hit);
+                entry.batch == self.batch && entry.last >= lookup.run && now - entry.last <= WINDOW;
+            lookup.entries[i] = at;
+            lookup.lanes[i] = entry.lane;
+            lookup.is_miss[i] = !is_hit;
+            lookup.misses += u32::from(!is_hit);
         }
-        found
+        lookup
     }
 
     /// What these corners find in an empty batch, after a corner of `key`.
     fn find_in_empty(corners: &[u32], instance: u32, key: (u32, u32)) -> Lookup {
-        let mut found = Lookup {
+        let mut lookup = Lookup {
             key,
             ..Lookup::default()
         };
         for (i, &vertex) in corners.iter().enumerate() {
-            found.enter(index32(i), vertex, instance);
-            match found.same_primitive(corners, i, 0) {
-                Some(lane) => found.lanes[i] = lane,
+            lookup.come_to(index32(i), vertex, instance);
+            match lookup.same_primitive(corners, i, 0) {
+                Some(lane) => lookup.lanes[i] = lane,
                 None => {
-                    found.is_miss[i] = true;
-                    found.misses += 1;
+                    lookup.is_miss[i] = true;
+                    lookup.misses += 1;
                 }
             }
         }
-        found
+        lookup
     }
 
     /// The entry of a vertex in this batch, or a free one.
@@ -229,9 +261,9 @@ impl Batcher {
         }
     }
 
-    /// Notes the use of a vertex at the present corner.
+    /// Notes that a vertex takes a lane.
     #[inline]
-    fn remember(&mut self, vertex: u32, instance: u32, lane: u32) {
+    fn enter(&mut self, vertex: u32, instance: u32, lane: u32, now: u32) {
         let at = self.entry(vertex);
         let entry = &mut self.entries[at];
         let is_known = entry.batch == self.batch && entry.instance == instance;
@@ -239,7 +271,7 @@ impl Batcher {
         *entry = Entry {
             vertex,
             batch: self.batch,
-            last: self.corners,
+            last: now,
             instance,
             lane,
         };
@@ -252,7 +284,7 @@ const SAME_PRIMITIVE: u32 = 1 << 16;
 impl Lookup {
     /// Comes to a corner: a run starts where block or instance change.
     #[inline]
-    fn enter(&mut self, now: u32, vertex: u32, instance: u32) {
+    fn come_to(&mut self, now: u32, vertex: u32, instance: u32) {
         let key = (block_of(vertex), instance);
         if key != self.key {
             self.run = now;

@@ -28,5 +28,6 @@ mod batcher;
 mod draw;
 mod setup;
 
-pub(crate) use batcher::{Batcher, LANES};
+pub(crate) use batcher::{BATCH_FACES, Batcher, LANES, WINDOW, block_of};
 pub use draw::{Draw, DrawCounts, PrimitiveTopology, counts};
+pub(crate) use setup::Setup;

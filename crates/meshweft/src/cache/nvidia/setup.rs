@@ -27,6 +27,12 @@ impl Default for Setup {
 }
 
 impl Setup {
+    /// The lanes that are kept, one bit each.
+    #[inline]
+    pub(crate) fn kept(&self) -> u32 {
+        self.kept
+    }
+
     /// Sets up a triangle of these lanes (below 32); returns the cycles that it takes, 1 to 3.
     #[inline]
     pub(crate) fn add(&mut self, lanes: [u32; 3]) -> u32 {

@@ -22,6 +22,7 @@
 use super::settings::{Horizon, Score, Settings, Weights};
 use super::state::{CacheLimits, WINDOWS};
 use crate::cache::{BatchModel, CacheModel};
+use crate::order::in_batches::BESIDE_SIZE;
 use crate::order::target::{Effort, Target};
 
 /// The largest cache that is modelled.
@@ -275,7 +276,7 @@ fn universal(effort: Effort) -> Settings {
     };
 
     Settings {
-        first: CacheLimits::fifo(10),
+        first: CacheLimits::fifo(BESIDE_SIZE),
         second: Some(CacheLimits {
             batch_faces: 32,
             batch_vertices: 32,

@@ -11,6 +11,7 @@ use super::rollout::{Caller, Rollouts};
 use super::settings::Settings;
 use super::state::{CacheLimits, State};
 use crate::faces::Faces;
+use crate::order::in_batches;
 use crate::order::target::{Effort, Target};
 use crate::order::vertex_fetch::vertex_fetch;
 use crate::permutation::{FaceOrder, Permutation};
@@ -80,18 +81,19 @@ pub fn face_order<'a>(
     hand_in(numbers, &mut settings);
 
     // The numbers of vertices break ties: they are those of first use, as in `parts`.
-    let faces = faces.into();
-    let renumbered = vertex_fetch(faces).renumber(faces.as_slice());
-    let faces = Faces::of_checked(&renumbered, faces.vertex_count());
+    let given = faces.into();
+    let renumbered = vertex_fetch(given).renumber(given.as_slice());
+    let faces = Faces::of_checked(&renumbered, given.vertex_count());
 
     let first = settings.first;
     let is_short = settings.window <= u64::SPAN;
-    match (settings.second, is_short) {
+    let found = match (settings.second, is_short) {
         (None, true) => run::<u64, 1>(faces, &settings, [first], seed),
         (None, false) => run::<u128, 1>(faces, &settings, [first], seed),
         (Some(second), true) => run::<u64, 2>(faces, &settings, [first, second], seed),
         (Some(second), false) => run::<u128, 2>(faces, &settings, [first, second], seed),
-    }
+    };
+    in_batches::finish(target, effort, false, given, None, found)
 }
 
 fn hand_in(numbers: &Numbers, settings: &mut Settings) {

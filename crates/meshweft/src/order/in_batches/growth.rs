@@ -1,0 +1,329 @@
+//! Orders of the faces of a batch, grown from a first face, and what they cost.
+
+use super::batch::{BESIDE_SIZE, Batch, MOST_FACES, MOST_VERTICES, all};
+use crate::cache::nvidia::{Setup, WINDOW};
+
+/// What an order of a batch costs: less is better, lost vertices first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Cost {
+    /// Corners whose vertex fell out of the window, so that it is transformed again.
+    pub(super) lost: u32,
+    /// Setup cycles in 64ths, and the misses of the FIFO cache by their weight.
+    pub(super) weighed: u32,
+}
+
+/// A setup cycle in [`Cost::weighed`].
+const CYCLE: u32 = 64;
+
+/// Draws the faces of batches one by one and counts.
+#[derive(Debug, Clone)]
+pub(super) struct Grower {
+    /// How many of the next faces are candidates.
+    reach: u32,
+    /// What a miss of the FIFO cache weighs.
+    beside: u32,
+    /// The vertices that the FIFO cache took in last, the latest last.
+    pushed: [u32; BESIDE_SIZE as usize],
+    /// The state at the start of a batch.
+    fresh: BatchState,
+    state: BatchState,
+    /// The faces in the order in which they were drawn.
+    order: [u8; MOST_FACES],
+    best: [u8; MOST_FACES],
+}
+
+/// What drawing a face changes.
+#[derive(Debug, Clone)]
+struct BatchState {
+    setup: Setup,
+    /// How many faces are drawn.
+    drawn: u8,
+    undrawn: u32,
+    /// The vertices that were used.
+    seen: u32,
+    vertices: [Vertex; MOST_VERTICES],
+    /// Pushes into the FIFO cache.
+    pushes: u8,
+    cost: Cost,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Vertex {
+    /// The number of its last corner.
+    last: u8,
+    /// How many undrawn faces it has.
+    left: u8,
+    /// When it entered the FIFO cache, in pushes; 0: it never did.
+    entered: u8,
+}
+
+/// The pushes at the start of a batch: what is in the FIFO cache then entered after push 0.
+#[expect(clippy::cast_possible_truncation, reason = "10")]
+const FIRST_PUSH: u8 = BESIDE_SIZE as u8 + 1;
+
+impl Default for BatchState {
+    fn default() -> Self {
+        Self {
+            setup: Setup::default(),
+            drawn: 0,
+            undrawn: 0,
+            seen: 0,
+            vertices: [Vertex::default(); MOST_VERTICES],
+            pushes: FIRST_PUSH,
+            cost: Cost {
+                lost: 0,
+                weighed: 0,
+            },
+        }
+    }
+}
+
+impl BatchState {
+    /// Whether a vertex is not in the FIFO cache.
+    #[inline]
+    fn is_outside(&self, vertex: &Vertex) -> bool {
+        u32::from(self.pushes - vertex.entered) > BESIDE_SIZE
+    }
+}
+
+impl Grower {
+    pub(super) fn new(reach: u32, beside: u32) -> Self {
+        Self {
+            reach,
+            beside,
+            pushed: [u32::MAX; BESIDE_SIZE as usize],
+            fresh: BatchState::default(),
+            state: BatchState::default(),
+            order: [0; MOST_FACES],
+            best: [0; MOST_FACES],
+        }
+    }
+
+    /// Draws a face in the FIFO cache for good.
+    #[inline]
+    pub(super) fn passed(&mut self, face: [u32; 3]) {
+        if self.beside == 0 {
+            return;
+        }
+        for vertex in face {
+            if !self.pushed.contains(&vertex) {
+                self.pushed.rotate_left(1);
+                self.pushed[BESIDE_SIZE as usize - 1] = vertex;
+            }
+        }
+    }
+
+    /// Comes to a batch; returns what it costs as it stands.
+    pub(super) fn replay(&mut self, batch: &Batch) -> Cost {
+        self.enter(batch);
+        self.state.clone_from(&self.fresh);
+        for face in 0..batch.len() {
+            self.draw(batch, face);
+        }
+        self.best = self.order;
+        self.state.cost
+    }
+
+    /// Sets the state before the first face of a batch.
+    fn enter(&mut self, batch: &Batch) {
+        self.fresh = BatchState {
+            undrawn: all(batch.len()),
+            ..BatchState::default()
+        };
+        for (number, (state, vertex)) in self
+            .fresh
+            .vertices
+            .iter_mut()
+            .zip(batch.vertices())
+            .enumerate()
+        {
+            state.left = ones(batch.faces_at(number));
+            if self.beside != 0 {
+                let entered = (1..FIRST_PUSH).zip(&self.pushed);
+                let found = entered.rev().find(|(_, pushed)| *pushed == vertex);
+                state.entered = found.map_or(0, |(entered, _)| entered);
+            }
+        }
+    }
+
+    /// The best order found: as the batch stands, which costs `before`, or grown from one of the first
+    /// `starts` faces with the fewest neighbours, of those that may start.
+    pub(super) fn best(
+        &mut self,
+        batch: &Batch,
+        before: Cost,
+        starts: u32,
+        may_start: impl Fn(usize) -> bool,
+    ) -> [u8; MOST_FACES] {
+        // One cycle a face, and two more for the first.
+        let floor = Cost {
+            lost: 0,
+            weighed: CYCLE * (all(batch.len()).count_ones() + 2),
+        };
+        let mut least = before;
+        let mut firsts = lowest(batch.firsts(), self.reach);
+        for _ in 0..starts {
+            if firsts == 0 || (self.beside == 0 && least <= floor) {
+                break;
+            }
+
+            // The next face to start with.
+            let left = |vertex: usize| u32::from(self.fresh.vertices[vertex].left);
+            let neighbours = |face: &usize| -> u32 { batch.corners(*face).map(left).iter().sum() };
+            let start = bits(firsts).min_by_key(neighbours).unwrap_or(0);
+            firsts &= !(1 << start);
+            if !may_start(start) {
+                continue;
+            }
+
+            // Grow.
+            let cost = self.grow(batch, start, least);
+            if cost < least {
+                least = cost;
+                self.best = self.order;
+            }
+        }
+        self.best
+    }
+
+    /// What an order costs that starts with `start`; it is given up where it cannot cost less than
+    /// `least` any more.
+    fn grow(&mut self, batch: &Batch, start: usize, least: Cost) -> Cost {
+        self.state.clone_from(&self.fresh);
+        let firsts = batch.firsts();
+        for face in 0..batch.fixed() {
+            self.draw(batch, face);
+        }
+        let mut next = start;
+        loop {
+            for face in batch.together(next) {
+                self.draw(batch, face);
+            }
+            let state = &self.state;
+            let at_least = Cost {
+                weighed: state.cost.weighed + CYCLE * state.undrawn.count_ones(),
+                ..state.cost
+            };
+            if state.undrawn == 0 || at_least >= least {
+                return at_least;
+            }
+            next = self.next(batch, firsts);
+        }
+    }
+
+    /// The face to draw next, of those that begin a polygon.
+    #[inline]
+    fn next(&self, batch: &Batch, firsts: u32) -> usize {
+        let open = lowest(self.state.undrawn & firsts, self.reach);
+
+        // Faces with one and with two corners in the slots: of these the third costs no cycle.
+        let (mut one, mut two) = (0, 0);
+        for vertex in bits(self.state.setup.kept()) {
+            let faces = batch.faces_at(vertex);
+            two |= one & faces;
+            one |= faces;
+        }
+        let candidates = match (open & two, open & one) {
+            (0, 0) => open,
+            (0, one) => one,
+            (two, _) => two,
+        };
+
+        // The best of them, ties to the first.
+        let mut best = (i32::MIN, 0);
+        for face in bits(candidates) {
+            let value = self.value(batch, face);
+            if value > best.0 {
+                best = (value, face);
+            }
+        }
+        best.1
+    }
+
+    /// How good it is to draw a face next: few misses, vertices that are finished, and above all those
+    /// that soon fall out of the window.
+    #[inline]
+    fn value(&self, batch: &Batch, face: usize) -> i32 {
+        let state = &self.state;
+        let now = 3 * state.drawn;
+        let (mut value, mut misses) = (0, 0);
+        for number in batch.corners(face) {
+            let vertex = &state.vertices[number];
+            let others = i32::from(vertex.left) - 1;
+            value += if others == 0 { 6 } else { -others };
+            value += if state.seen >> number & 1 == 0 {
+                -8
+            } else {
+                // In faces.
+                let age = i32::from((now - vertex.last) / 3);
+                age.min(8) + if age >= 11 { 40 } else { 0 }
+            };
+            misses += i32::from(state.setup.kept() >> number & 1 == 0);
+            if self.beside != 0 && state.is_outside(vertex) {
+                value -= self.beside.cast_signed() * 25 / 64;
+            }
+        }
+        value - 100 * (misses - 1).max(0)
+    }
+
+    /// Draws a face.
+    #[inline]
+    fn draw(&mut self, batch: &Batch, face: usize) {
+        let state = &mut self.state;
+        let corners = batch.corners(face);
+        state.cost.weighed += CYCLE * state.setup.add(batch.lanes(face));
+
+        for (number, now) in corners.into_iter().zip(3 * state.drawn..) {
+            let vertex = state.vertices[number];
+            let is_lost = state.seen >> number & 1 != 0 && u32::from(now - vertex.last) > WINDOW;
+            state.cost.lost += u32::from(is_lost);
+            state.seen |= 1 << number;
+
+            let enters = self.beside != 0 && state.is_outside(&vertex);
+            if enters {
+                state.cost.weighed += self.beside;
+            }
+            state.vertices[number] = Vertex {
+                last: now,
+                left: vertex.left - 1,
+                entered: if enters { state.pushes } else { vertex.entered },
+            };
+            state.pushes += u8::from(enters);
+        }
+
+        #[expect(clippy::cast_possible_truncation, reason = "below 32")]
+        {
+            self.order[usize::from(state.drawn)] = face as u8;
+        }
+        state.undrawn &= !(1 << face);
+        state.drawn += 1;
+    }
+}
+
+/// How many numbers a set has.
+#[expect(clippy::cast_possible_truncation, reason = "at most 32")]
+fn ones(set: u32) -> u8 {
+    set.count_ones() as u8
+}
+
+/// The lowest `count` numbers of a set.
+#[inline]
+fn lowest(set: u32, count: u32) -> u32 {
+    if count >= set.count_ones() {
+        return set;
+    }
+    let rest = (0..count).fold(set, |rest, _| rest & rest.wrapping_sub(1));
+    set & !rest
+}
+
+/// The numbers in a set, ascending.
+#[inline]
+fn bits(mut set: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lowest = set.trailing_zeros();
+        (set != 0).then(|| {
+            set &= set - 1;
+            lowest as usize
+        })
+    })
+}
