@@ -49,13 +49,13 @@ impl Algorithm {
     /// An order of the faces of one run that is worth it, the polygons that begin at `starts` kept
     /// whole.
     ///
-    /// If the faces are those of a `whole` mesh and the order is not to be checked, the caller has to
-    /// judge it, who counts the whole mesh in any case.
+    /// If the faces are those of a whole mesh, the caller has counted their misses, `of_whole`, and
+    /// judges an order that is not to be checked: the report needs its misses in any case.
     pub(super) fn run_order(
         &self,
         faces: Faces<'_>,
         starts: Option<&[u32]>,
-        whole: bool,
+        of_whole: Option<u64>,
         progress: &SharedProgress<'_>,
     ) -> RunOrder {
         let is_checked = self.is_checked(faces.len(), progress);
@@ -67,7 +67,7 @@ impl Algorithm {
         };
         let mut now = Compact::new(faces);
         let mut starts = starts.map(<[u32]>::to_vec);
-        let mut misses = None;
+        let mut misses = of_whole;
 
         loop {
             // Order: the first time is half of the work, the check the other half.
@@ -80,20 +80,23 @@ impl Algorithm {
                 break;
             }
 
-            // Judge.
-            let ordered = order.apply(now.faces().as_slice());
-            if is_checked || !whole {
-                let vertex_count = now.faces().vertex_count();
-                let before = misses.unwrap_or_else(|| self.target().misses(now.faces()));
-                let after = self
-                    .target()
-                    .misses(Faces::of_checked(&ordered, vertex_count));
-                if let Some(reason) = self.refusal(before, after) {
-                    run.reason = run.order.is_identity().then_some(reason);
-                    break;
-                }
-                misses = Some(after);
+            // Leave it to the caller.
+            if !is_checked && of_whole.is_some() {
+                (run.order, run.scheduled) = (order, scheduled);
+                break;
             }
+
+            // Judge.
+            let vertex_count = now.faces().vertex_count();
+            let ordered = order.apply(now.faces().as_slice());
+            let before = misses.unwrap_or_else(|| self.target().misses(now.faces()));
+            let after = Faces::of_checked(&ordered, vertex_count);
+            let after = self.target().misses(after);
+            if let Some(reason) = self.refusal(before, after) {
+                run.reason = run.order.is_identity().then_some(reason);
+                break;
+            }
+            misses = Some(after);
 
             // Take it.
             starts = starts.map(|starts| moved_starts(&starts, &order));
@@ -102,7 +105,7 @@ impl Algorithm {
             if !is_checked || progress.is_stopped() {
                 break;
             }
-            now = Compact::of_owned(ordered, now.faces().vertex_count());
+            now = Compact::of_owned(ordered, vertex_count);
         }
 
         progress.part(left).finish();
@@ -210,7 +213,7 @@ mod tests {
                     let progress = SharedProgress::new(&(), faces.len());
                     let of = |faces: &[[u32; 3]], starts: Option<&[u32]>| {
                         let faces = Faces::of_checked(faces, vertex_count);
-                        algorithm.run_order(faces, starts, true, &progress)
+                        algorithm.run_order(faces, starts, None, &progress)
                     };
                     let run = of(&faces, starts.as_deref());
                     let moved = starts.map(|starts| moved_starts(&starts, &run.order));

@@ -39,26 +39,36 @@ impl Counts {
     /// Counts one mesh.
     ///
     /// # Complexity
-    /// One [`cache::misses`] a model, and at most O(faces) for the vertices.
+    /// As [`cache::misses_of`], and at most O(faces) for the vertices.
     #[must_use]
     pub fn of<'a>(faces: impl Into<Faces<'a>>, models: &[CacheModel]) -> Self {
         let faces = faces.into();
         // What a few faces on a large vertex buffer take is not what the buffer takes.
         let compact = Compact::where_sparse(faces);
-        let misses = models.iter();
-        let misses = misses.map(|&model| (model, cache::misses(compact.faces(), model)));
+        let misses = cache::misses_of(compact.faces(), models);
         let mut counts = Self {
             vertices: faces.vertex_count(),
             used_vertices: cache::used_vertices(compact.faces()),
             faces: faces.len(),
-            misses: misses.collect(),
+            misses: models.iter().copied().zip(misses).collect(),
             overfetch: 0.0,
         };
         counts.count_fetched(faces);
         counts
     }
 
-    /// Counts what is fetched for these faces, their vertices renumbered and the rest as it was.
+    /// The same mesh with its faces in another order, what is fetched as it was.
+    #[cfg(feature = "files")]
+    pub(super) fn reordered(&self, faces: Faces<'_>, models: &[CacheModel]) -> Self {
+        let compact = Compact::where_sparse(faces);
+        let misses = cache::misses_of(compact.faces(), models);
+        Self {
+            misses: models.iter().copied().zip(misses).collect(),
+            ..*self
+        }
+    }
+
+    /// Counts what is fetched for these faces, the rest as it was.
     pub(super) fn count_fetched(&mut self, faces: Faces<'_>) {
         let stored = self.used_vertices * VERTEX_SIZE;
         self.overfetch = ratio(cache::fetched(faces, VERTEX_SIZE), stored);
@@ -147,27 +157,39 @@ mod of_files {
                 misses: models.iter().map(|&model| (model, 0)).collect(),
                 ..Self::default()
             };
-            let mut groups: BTreeMap<usize, Vec<bool>> = BTreeMap::new();
             let mut fetched = 0.0;
-            for (entry, count) in entries.iter().zip(counts) {
-                let group = groups.entry(entry.vertex_group).or_insert_with(|| {
-                    total.vertices += count.vertices;
-                    vec![false; count.vertices]
-                });
-                for &vertex in entry.mesh.faces().iter().flatten() {
-                    let used = &mut group[vertex as usize];
-                    total.used_vertices += usize::from(!std::mem::replace(used, true));
-                }
+            let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+            for (i, (entry, count)) in entries.iter().zip(counts).enumerate() {
+                groups.entry(entry.vertex_group).or_default().push(i);
                 total.faces += count.faces;
                 for (sum, (_, misses)) in total.misses.iter_mut().zip(&count.misses) {
                     sum.1 += misses;
                 }
                 fetched += count.overfetch * count.used_vertices as f64;
             }
+
+            for members in groups.values() {
+                let vertices = counts[members[0]].vertices;
+                total.vertices += vertices;
+                total.used_vertices += match members[..] {
+                    [only] => counts[only].used_vertices,
+                    _ => used_by(members.iter().map(|&i| &entries[i]), vertices),
+                };
+            }
+
             if total.used_vertices > 0 {
                 total.overfetch = fetched / total.used_vertices as f64;
             }
             total
         }
+    }
+
+    /// How many of `vertices` vertices some face of these meshes names.
+    fn used_by<'a>(meshes: impl Iterator<Item = &'a MeshEntry>, vertices: usize) -> usize {
+        let mut is_used = vec![false; vertices];
+        for &vertex in meshes.flat_map(|entry| entry.mesh.faces()).flatten() {
+            is_used[vertex as usize] = true;
+        }
+        is_used.into_iter().filter(|&used| used).count()
     }
 }

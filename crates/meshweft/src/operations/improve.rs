@@ -97,7 +97,7 @@ pub(super) fn improve(
     Improvement {
         faces,
         vertices,
-        after: meshes.into_iter().map(|mesh| mesh.counts).collect(),
+        after: meshes.into_iter().map(Improved::into_counts).collect(),
         is_stopped: shared.finish(),
     }
 }
@@ -144,6 +144,7 @@ struct MeshJob<'a> {
 /// A mesh in its better order.
 struct Improved<'a> {
     faces: Cow<'a, [[u32; 3]]>,
+    /// Not yet with what is fetched.
     counts: Counts,
 }
 
@@ -154,13 +155,16 @@ impl<'a> MeshJob<'a> {
         let is_whole = entry.polygons.is_none() && entry.runs.len() <= 1;
 
         // Find an order, run by run.
+        let target = self.algorithm.target();
+        let misses = self.before.misses_of(target);
+        let of_whole = is_whole.then_some(misses);
         let turnable = entry.corners_turnable && entry.polygons.is_none();
         let (mut next, mut scheduled, mut reason) = (self.first, 0, None);
         let order = entry.record_order(|mesh, polygons| {
             let range = next..next + mesh.face_count();
             next = range.end;
             let algorithm = self.algorithm.for_share(range, self.face_count, turnable);
-            let run = algorithm.run_order(mesh.as_faces(), polygons, is_whole, progress);
+            let run = algorithm.run_order(mesh.as_faces(), polygons, of_whole, progress);
             scheduled += run.scheduled;
             reason = reason.or(run.reason);
             run.order
@@ -171,13 +175,12 @@ impl<'a> MeshJob<'a> {
 
         // Take it if it is better for the whole mesh.
         let faces = entry.ordered_faces(&order);
-        let counts = Counts::of(
+        let counts = self.before.reordered(
             Faces::of_checked(&faces, entry.mesh.vertex_count()),
             self.models,
         );
-        let target = self.algorithm.target();
         let after = counts.misses_of(target);
-        let refusal = self.algorithm.refusal(self.before.misses_of(target), after);
+        let refusal = self.algorithm.refusal(misses, after);
         if refusal.is_some() {
             return self.unchanged(refusal);
         }
@@ -210,13 +213,20 @@ impl<'a> MeshJob<'a> {
 }
 
 impl Improved<'_> {
-    /// Gives the vertices their new numbers, on which only what is fetched depends.
+    /// Gives the vertices their new numbers.
     fn renumber(&mut self, old_to_new: &[u32]) {
         for face in self.faces.to_mut() {
             *face = face.map(|vertex| old_to_new[vertex as usize]);
         }
-        let faces = Faces::of_checked(&self.faces, old_to_new.len());
-        self.counts.count_fetched(faces);
+    }
+
+    /// The counts, with what is fetched where anything moved.
+    fn into_counts(mut self) -> Counts {
+        if let Cow::Owned(faces) = &self.faces {
+            let faces = Faces::of_checked(faces, self.counts.vertices);
+            self.counts.count_fetched(faces);
+        }
+        self.counts
     }
 }
 

@@ -165,20 +165,12 @@ impl IndexOptions {
     ) -> Orders {
         let algorithm = Algorithm::new(&self.options());
         let shared = SharedProgress::new(progress, faces.len());
-        let misses = |faces: &[[u32; 3]]| {
-            let faces = Faces::of_checked(faces, vertex_count);
-            algorithm.target().misses(faces)
-        };
 
         // Faces.
         let now = Faces::of_checked(faces, vertex_count);
-        let mut order = algorithm.run_order(now, None, true, &shared).order;
+        let order = algorithm.run_order(now, None, None, &shared).order;
         if !order.is_identity() {
-            let ordered = order.apply(faces);
-            match algorithm.refusal(misses(faces), misses(&ordered)) {
-                None => *faces = ordered,
-                Some(_) => order = FaceOrder::identity(faces.len()),
-            }
+            *faces = order.apply(faces);
         }
 
         // Vertices.

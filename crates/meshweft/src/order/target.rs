@@ -64,12 +64,10 @@ impl Target {
     /// The misses of this face order, added up over [`models`](Self::models).
     ///
     /// # Complexity
-    /// One [`cache::misses`] a model.
+    /// As [`cache::misses_of`].
     #[must_use]
     pub fn misses<'a>(&self, faces: impl Into<Faces<'a>>) -> u64 {
-        let faces = faces.into();
-        let misses = |&model| cache::misses(faces, model);
-        self.models().iter().map(misses).sum()
+        cache::misses_of(faces, self.models()).iter().sum()
     }
 }
 
