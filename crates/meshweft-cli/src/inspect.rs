@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Error, Result};
 use clap::Args;
+use meshweft::cache::nvidia::DrawCounts;
 use meshweft::files::Document;
 use meshweft::operations::{self, Counts, InspectReport, Method};
 use meshweft::{CacheModel, Mesh};
@@ -129,5 +130,23 @@ fn text(report: &InspectReport) -> String {
     if report.meshes.len() != 1 {
         rows.push(row("total", total));
     }
-    format!("{}\n{}", report.file.display(), columns(&rows))
+    let mut text = format!("{}\n{}", report.file.display(), columns(&rows));
+    if let Some(card) = &total.card {
+        text += &format!("\n{}", card_line(card));
+    }
+    text
+}
+
+/// What an NVIDIA card counts, each figure with the least that it can be.
+fn card_line(card: &DrawCounts) -> String {
+    format!(
+        "nvidia: {} invocations of {} distinct vertices in {} warps ({:.3} of the fewest), {} setup cycles \
+         ({:.3} of the fewest)",
+        card.invocations,
+        card.distinct_vertices,
+        card.warps,
+        card.warps_over_floor(),
+        card.setup_cycles,
+        card.setup_cycles_over_floor()
+    )
 }

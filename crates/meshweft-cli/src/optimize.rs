@@ -127,7 +127,7 @@ fn text(report: &OptimizeReport) -> String {
 
     // Caches: those that were ordered for.
     let target = report.options.target;
-    let is_gpu = |model: &CacheModel| matches!(model, CacheModel::Batch(_));
+    let is_gpu = |model: &CacheModel| matches!(model, CacheModel::Batch(_) | CacheModel::Nvidia);
     let ordered_for = |model: &CacheModel| target.models().contains(model);
     let caches = before.acmr().zip(after.acmr());
     let caches = caches.filter(|((model, _), _)| !is_gpu(model) && ordered_for(model));
@@ -143,6 +143,16 @@ fn text(report: &OptimizeReport) -> String {
     let gpus = gpus.map(|((model, a), (_, b))| format!("{model} {a:.3} -> {b:.3}"));
     let gpus: Vec<_> = gpus.collect();
     text += &format!("\n  transforms per vertex: {}", gpus.join(", "));
+
+    if let (Some(before), Some(after)) = (before.card, after.card) {
+        text += &format!(
+            "\n  nvidia: warps {:.3} -> {:.3} of the fewest, setup cycles {:.3} -> {:.3} of the fewest",
+            before.warps_over_floor(),
+            after.warps_over_floor(),
+            before.setup_cycles_over_floor(),
+            after.setup_cycles_over_floor(),
+        );
+    }
 
     if let Some(scheduled) = report.scheduled() {
         let per_face = scheduled as f64 / after.faces.max(1) as f64;

@@ -307,7 +307,7 @@ mod tests {
             [
                 CacheModel::fifo(64),
                 CacheModel::AMD,
-                CacheModel::NVIDIA,
+                CacheModel::MESHOPT_NVIDIA,
                 CacheModel::INTEL,
             ],
         ] {

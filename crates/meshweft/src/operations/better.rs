@@ -89,9 +89,9 @@ impl Algorithm {
             // Judge.
             let vertex_count = now.faces().vertex_count();
             let ordered = order.apply(now.faces().as_slice());
-            let before = misses.unwrap_or_else(|| self.target().misses(now.faces()));
+            let before = misses.unwrap_or_else(|| self.target().cost(now.faces()));
             let after = Faces::of_checked(&ordered, vertex_count);
-            let after = self.target().misses(after);
+            let after = self.target().cost(after);
             if let Some(reason) = self.refusal(before, after) {
                 run.reason = run.order.is_identity().then_some(reason);
                 break;
@@ -223,7 +223,7 @@ mod tests {
 
                     // And no order is taken that does not gain.
                     let target = algorithm.target();
-                    let (before, after) = (target.misses(&faces), target.misses(&ordered));
+                    let (before, after) = (target.cost(&faces), target.cost(&ordered));
                     assert_eq!(is_gain(before, after), !run.order.is_identity());
                 }
             }

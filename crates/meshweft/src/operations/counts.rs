@@ -1,5 +1,6 @@
 //! Counting misses of meshes, one by one and together.
 
+use crate::cache::nvidia::{self, DrawCounts};
 use crate::cache::{self, CacheModel, ratio};
 use crate::faces::Faces;
 use crate::first_use::Compact;
@@ -31,6 +32,8 @@ pub struct Counts {
     pub faces: usize,
     /// Misses under each model, in the order that was asked for.
     pub misses: Vec<(CacheModel, u64)>,
+    /// What an NVIDIA card counts, if [`CacheModel::Nvidia`] was asked for.
+    pub card: Option<DrawCounts>,
     /// Bytes fetched over bytes of the used vertices, with records of 32 bytes.
     pub overfetch: f64,
 }
@@ -45,14 +48,13 @@ impl Counts {
         let faces = faces.into();
         // What a few faces on a large vertex buffer take is not what the buffer takes.
         let compact = Compact::where_sparse(faces);
-        let misses = cache::misses_of(compact.faces(), models);
         let mut counts = Self {
             vertices: faces.vertex_count(),
             used_vertices: cache::used_vertices(compact.faces()),
             faces: faces.len(),
-            misses: models.iter().copied().zip(misses).collect(),
-            overfetch: 0.0,
+            ..Self::default()
         };
+        counts.count_misses(faces, compact.faces(), models);
         counts.count_fetched(faces);
         counts
     }
@@ -60,12 +62,31 @@ impl Counts {
     /// The same mesh with its faces in another order, what is fetched as it was.
     #[cfg(feature = "files")]
     pub(super) fn reordered(&self, faces: Faces<'_>, models: &[CacheModel]) -> Self {
-        let compact = Compact::where_sparse(faces);
-        let misses = cache::misses_of(compact.faces(), models);
-        Self {
-            misses: models.iter().copied().zip(misses).collect(),
+        let mut counts = Self {
+            misses: Vec::new(),
             ..*self
-        }
+        };
+        counts.count_misses(faces, Compact::where_sparse(faces).faces(), models);
+        counts
+    }
+
+    /// Counts the misses; `compact` are the same faces with other numbers of their vertices, which only
+    /// the card looks at.
+    fn count_misses(&mut self, faces: Faces<'_>, compact: Faces<'_>, models: &[CacheModel]) {
+        let is_card = |model: &&CacheModel| **model == CacheModel::Nvidia;
+        self.card = models.iter().find(is_card).map(|_| nvidia::counts(faces));
+
+        let others: Vec<_> = models
+            .iter()
+            .filter(|model| !is_card(model))
+            .copied()
+            .collect();
+        let mut misses = cache::misses_of(compact, &others).into_iter();
+        let of_model = |&model: &CacheModel| match (model, self.card) {
+            (CacheModel::Nvidia, Some(card)) => (model, card.invocations),
+            _ => (model, misses.next().unwrap_or(0)),
+        };
+        self.misses = models.iter().map(of_model).collect();
     }
 
     /// Counts what is fetched for these faces, the rest as it was.
@@ -74,12 +95,17 @@ impl Counts {
         self.overfetch = ratio(cache::fetched(faces, VERTEX_SIZE), stored);
     }
 
-    /// The misses of those of the counted models that `target` stands for, added up.
+    /// What the order costs for `target`, whose models were counted: see [`Target::cost`].
     #[cfg(feature = "files")]
-    pub(super) fn misses_of(&self, target: Target) -> u64 {
-        let models = target.models();
-        let of_target = self.misses.iter().filter(|(m, _)| models.contains(m));
-        of_target.map(|(_, misses)| misses).sum()
+    pub(super) fn cost_for(&self, target: Target) -> u64 {
+        let of_model = |model: &CacheModel| match (model, self.card) {
+            (CacheModel::Nvidia, Some(card)) => card.cost(),
+            _ => {
+                let counted = self.misses.iter().find(|(counted, _)| counted == model);
+                counted.map_or(0, |(_, misses)| *misses)
+            }
+        };
+        target.models().iter().map(of_model).sum()
     }
 
     /// Misses per face under each model.
@@ -112,6 +138,7 @@ mod tests {
             used_vertices: 4,
             faces: 3,
             misses: USUAL_CACHES.map(|model| (model, 4)).to_vec(),
+            card: Some(nvidia::counts(&faces)),
             // Records of 32 bytes: 3 and 7, 41 and 900 each have a line of 64 bytes of their own.
             overfetch: 2.0,
         };
@@ -162,6 +189,9 @@ mod of_files {
             for (i, (entry, count)) in entries.iter().zip(counts).enumerate() {
                 groups.entry(entry.vertex_group).or_default().push(i);
                 total.faces += count.faces;
+                if let Some(card) = count.card {
+                    total.card.get_or_insert_default().add(&card);
+                }
                 for (sum, (_, misses)) in total.misses.iter_mut().zip(&count.misses) {
                     sum.1 += misses;
                 }

@@ -156,7 +156,7 @@ impl<'a> MeshJob<'a> {
 
         // Find an order, run by run.
         let target = self.algorithm.target();
-        let misses = self.before.misses_of(target);
+        let misses = self.before.cost_for(target);
         let of_whole = is_whole.then_some(misses);
         let turnable = entry.corners_turnable && entry.polygons.is_none();
         let (mut next, mut scheduled, mut reason) = (self.first, 0, None);
@@ -179,7 +179,7 @@ impl<'a> MeshJob<'a> {
             Faces::of_checked(&faces, entry.mesh.vertex_count()),
             self.models,
         );
-        let after = counts.misses_of(target);
+        let after = counts.cost_for(target);
         let refusal = self.algorithm.refusal(misses, after);
         if refusal.is_some() {
             return self.unchanged(refusal);

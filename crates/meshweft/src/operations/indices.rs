@@ -234,7 +234,7 @@ mod tests {
                     assert!(!vertices.is_identity());
                 }
                 assert_eq!(long, expected.as_flattened());
-                assert!(options.target.misses(&expected) < options.target.misses(&faces));
+                assert!(options.target.cost(&expected) < options.target.cost(&faces));
 
                 let again = optimize_indices(&mut long, vertex_count, &options).unwrap();
                 assert!(again.faces.is_identity(), "{target}");

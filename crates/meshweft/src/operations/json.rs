@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::counts::Counts;
 use crate::cache::CacheModel;
+use crate::cache::nvidia::DrawCounts;
 use crate::files::Note;
 
 /// The version of the schema that reports follow. Members are added without a new number.
@@ -59,9 +60,26 @@ impl Counts {
         object.insert("misses".into(), Value::Object(misses.collect()));
         object.insert("acmr".into(), by_model(self.acmr()));
         object.insert("atvr".into(), by_model(self.atvr()));
+        if let Some(card) = &self.card {
+            object.insert("card".into(), of_card(card));
+        }
         object.insert("overfetch".into(), json!(self.overfetch));
         object
     }
+}
+
+/// What an NVIDIA card counts.
+fn of_card(card: &DrawCounts) -> Value {
+    json!({
+        "primitives": card.primitives,
+        "invocations": card.invocations,
+        "distinct_vertices": card.distinct_vertices,
+        "warps": card.warps,
+        "warps_over_floor": card.warps_over_floor(),
+        "setup_cycles": card.setup_cycles,
+        "setup_cycles_over_floor": card.setup_cycles_over_floor(),
+        "wide_batches": card.wide_batches,
+    })
 }
 
 /// An object from model names to numbers.
@@ -74,9 +92,11 @@ fn by_model(values: impl Iterator<Item = (CacheModel, f64)>) -> Value {
 pub(super) fn change(before: &Counts, after: &Counts) -> Map<String, Value> {
     let mut before = before.json();
     let mut object = after.json();
-    for key in ["acmr", "atvr", "misses", "overfetch"] {
-        let both = json!({"before": before.remove(key), "after": object.get(key)});
-        object.insert(key.into(), both);
+    for key in ["acmr", "atvr", "misses", "card", "overfetch"] {
+        if let Some(after) = object.get(key) {
+            let both = json!({"before": before.remove(key), "after": after});
+            object.insert(key.into(), both);
+        }
     }
     object
 }

@@ -50,15 +50,19 @@ impl Target {
     /// of each as of invocations where all are least ([`DrawCounts::cost`]).
     ///
     /// # Complexity
-    /// One [`cache::misses`] a model.
+    /// As [`cache::misses_of`].
     #[must_use]
     pub fn cost<'a>(&self, faces: impl Into<Faces<'a>>) -> u64 {
         let faces = faces.into();
-        let cost = |&model| match model {
-            CacheModel::Nvidia => nvidia::counts(faces).cost(),
-            model => cache::misses(faces, model),
+        let (card, others): (Vec<_>, Vec<_>) = self
+            .models()
+            .iter()
+            .partition(|&&model| model == CacheModel::Nvidia);
+        let of_card = match card.is_empty() {
+            true => 0,
+            false => nvidia::counts(faces).cost(),
         };
-        self.models().iter().map(cost).sum()
+        of_card + cache::misses_of(faces, &others).iter().sum::<u64>()
     }
 
     /// The misses of this face order, added up over [`models`](Self::models).
