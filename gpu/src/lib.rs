@@ -1,0 +1,18 @@
+//! Draws meshes on a graphics card through Vulkan, without a window, and compares what it counts and
+//! how long it takes with what the models of meshweft say.
+//!
+//! [`vulkan`] is all that talks to the card, and all that is unsafe. [`renderer`] counts, logs and times
+//! one draw. [`predict`] and [`bench`] are the jobs of the program `meshweft-gpu`.
+
+pub mod batch_rule;
+pub mod bench;
+pub mod draw;
+pub mod error;
+pub mod lavapipe;
+pub mod meshes;
+pub mod model;
+pub mod orders;
+pub mod predict;
+pub mod renderer;
+pub mod vulkan;
+pub mod workload;

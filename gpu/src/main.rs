@@ -1,0 +1,145 @@
+//! `meshweft-gpu`: what a graphics card does with orders.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use gpu::error::GpuError;
+use gpu::model::Model;
+use gpu::orders::Order;
+use gpu::renderer::Renderer;
+use gpu::vulkan::{Gpu, Instance};
+use gpu::{bench, meshes, predict};
+use serde_json::{Value, json};
+
+/// Draws meshes on a graphics card, through Vulkan and without a window, and compares what it counts
+/// and how long it takes.
+#[derive(Debug, Parser)]
+#[command(name = "meshweft-gpu")]
+struct Arguments {
+    /// The card's number, the first if not given; `list` lists them
+    #[arg(long, global = true, value_name = "N")]
+    card: Option<String>,
+    /// Write all figures to this file too
+    #[arg(long, global = true, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(subcommand)]
+    verb: Option<Verb>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Count invocations of the vertex shader, and compare with the card's model
+    Predict(Drawn),
+    /// Time orders against each other
+    Bench(Drawn),
+}
+
+#[derive(Debug, Args)]
+struct Drawn {
+    /// Mesh files
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Orders, with commas between them: file, random, meshopt, meshopt-strip, meshopt-fifo:K,
+    /// recursive-cut, linear-arrangement, or a target with its effort (universal, nvidia-best, fifo:16).
+    /// The first is what times are relative to
+    #[arg(long, value_delimiter = ',')]
+    orders: Vec<Order>,
+}
+
+impl Drawn {
+    fn orders_or(&self, names: &[&str]) -> Vec<Order> {
+        match self.orders.is_empty() {
+            true => names
+                .iter()
+                .map(|name| name.parse().expect("a known order"))
+                .collect(),
+            false => self.orders.clone(),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<ExitCode, GpuError> {
+    let number = match arguments.card.as_deref() {
+        Some("list") => {
+            for (number, card) in Instance::new()?.cards()?.iter().enumerate() {
+                println!("{number}: {card}");
+            }
+            return Ok(ExitCode::SUCCESS);
+        }
+        Some(number) => Some(number.parse().map_err(|_| {
+            GpuError::Input(format!("--card {number}: a number or `list` is asked for"))
+        })?),
+        None => None,
+    };
+    let Some(verb) = &arguments.verb else {
+        return Err(GpuError::Input(
+            "nothing to do: predict, bench; --help explains".to_owned(),
+        ));
+    };
+    let gpu = Gpu::open(number)?;
+    let renderer = Renderer::new(&gpu)?;
+    let card = gpu.card();
+    println!("card: {card}");
+    let (code, figures) = act(&renderer, verb)?;
+    if let Some(file) = &arguments.json {
+        let all = json!({"card": card.name, "driver": card.driver, "figures": figures});
+        std::fs::write(file, format!("{all:#}\n"))
+            .map_err(|error| GpuError::Input(format!("{}: {error}", file.display())))?;
+    }
+    Ok(code)
+}
+
+fn act(renderer: &Renderer<'_>, verb: &Verb) -> Result<(ExitCode, Value), GpuError> {
+    match verb {
+        Verb::Predict(drawn) => {
+            let (model, is_the_cards) = Model::of(renderer.gpu().card());
+            match is_the_cards {
+                true => println!("model: {model}"),
+                false => println!("model: {model}, to compare with: none is known for this card"),
+            }
+            let meshes = meshes::read_all(&drawn.files)?;
+            let orders = drawn.orders_or(&[
+                "file",
+                "meshopt",
+                "universal",
+                "nvidia",
+                "fifo:16",
+                "random",
+            ]);
+            let (outcome, figures) = predict::run(renderer, &meshes, &orders)?;
+            println!(
+                "{} draws: {} that the model does not say, {} that the card's statistics do not",
+                outcome.draws, outcome.unpredicted, outcome.disputed
+            );
+            let is_wrong = outcome.disputed > 0 || (is_the_cards && outcome.unpredicted > 0);
+            Ok((ExitCode::from(u8::from(is_wrong)), figures))
+        }
+        Verb::Bench(drawn) => {
+            let meshes = meshes::read_all(&drawn.files)?;
+            let orders = drawn.orders_or(&[
+                "meshopt",
+                "meshopt-strip",
+                "universal",
+                "universal-best",
+                "nvidia",
+                "nvidia-best",
+                "fifo:16",
+                "file",
+                "random",
+            ]);
+            let figures = bench::run(renderer, &meshes, &orders)?;
+            Ok((ExitCode::SUCCESS, figures))
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! What a submission does.
+
+use std::fmt;
+
+use ash::vk;
+
+use super::buffer::Buffer;
+use super::geometry::Geometry;
+use super::gpu::Gpu;
+use super::pipeline::Pipeline;
+use super::queries::{Statistics, Timestamps};
+use super::target::Target;
+
+/// Commands that are being recorded.
+pub struct Commands<'g> {
+    gpu: &'g Gpu,
+    pub(super) raw: vk::CommandBuffer,
+}
+
+/// Inside a render pass, with one pipeline and one geometry.
+pub struct Pass<'c> {
+    device: &'c ash::Device,
+    raw: vk::CommandBuffer,
+    layout: vk::PipelineLayout,
+    geometry: &'c Geometry<'c>,
+}
+
+impl<'g> Commands<'g> {
+    pub(super) fn new(gpu: &'g Gpu, raw: vk::CommandBuffer) -> Self {
+        Self { gpu, raw }
+    }
+
+    /// Sets a buffer to zeros.
+    pub fn fill_with_zeros(&self, buffer: &Buffer<'_>) {
+        // SAFETY: commands are being recorded outside a pass, here and below; the buffer lives until
+        // `run` has waited for them.
+        unsafe {
+            let device = &self.gpu.device;
+            device.cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, 0);
+        }
+        self.wait();
+    }
+
+    /// Copies the first words of a buffer.
+    ///
+    /// # Panics
+    /// If one of them has fewer words.
+    pub fn copy(&self, from: &Buffer<'_>, to: &Buffer<'_>, words: usize) {
+        assert!(words <= from.words() && words <= to.words());
+        if words == 0 {
+            return;
+        }
+        let regions = [vk::BufferCopy::default().size(words as u64 * 4)];
+        // SAFETY: as above; the region is inside both.
+        unsafe {
+            let device = &self.gpu.device;
+            device.cmd_copy_buffer(self.raw, from.raw, to.raw, &regions);
+        }
+        self.wait();
+    }
+
+    /// Makes all that follows wait for all that came before.
+    fn wait(&self) {
+        let memory = [vk::MemoryBarrier::default()
+            .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
+            .dst_access_mask(
+                vk::AccessFlags::MEMORY_READ
+                    | vk::AccessFlags::MEMORY_WRITE
+                    | vk::AccessFlags::HOST_READ,
+            )];
+        let all = vk::PipelineStageFlags::ALL_COMMANDS;
+        // SAFETY: as above.
+        unsafe {
+            self.gpu.device.cmd_pipeline_barrier(
+                self.raw,
+                all,
+                all | vk::PipelineStageFlags::HOST,
+                vk::DependencyFlags::empty(),
+                &memory,
+                &[],
+                &[],
+            );
+        }
+    }
+
+    /// Draws a geometry inside a pass of its own; nothing overlaps with it.
+    ///
+    /// # Panics
+    /// If the pipeline is for other primitives, or takes positions and there are none.
+    pub fn pass(
+        &self,
+        target: &Target<'g>,
+        pipeline: &Pipeline<'g>,
+        geometry: &Geometry<'_>,
+        draw: impl FnOnce(&Pass<'_>),
+    ) {
+        let settings = &pipeline.settings;
+        assert_eq!(settings.topology, geometry.topology);
+        assert_eq!(settings.restart, geometry.restart);
+        assert!(!settings.positions || geometry.positions.is_some());
+        let device = &self.gpu.device;
+        let side = Target::SIDE;
+        let area = vk::Rect2D::default().extent(vk::Extent2D {
+            width: side,
+            height: side,
+        });
+        let begin = vk::RenderPassBeginInfo::default()
+            .render_pass(target.pass)
+            .framebuffer(target.framebuffer)
+            .render_area(area);
+        let (set, layout) = (pipeline.layout.set, pipeline.layout.raw);
+        let width = match geometry.short {
+            true => vk::IndexType::UINT16,
+            false => vk::IndexType::UINT32,
+        };
+        let graphics = vk::PipelineBindPoint::GRAPHICS;
+        // SAFETY: commands are being recorded, no pass is open (`Pass` cannot open one), and all that
+        // is named lives until `run` has waited.
+        unsafe {
+            device.cmd_begin_render_pass(self.raw, &begin, vk::SubpassContents::INLINE);
+            device.cmd_bind_pipeline(self.raw, graphics, pipeline.raw);
+            device.cmd_bind_descriptor_sets(self.raw, graphics, layout, 0, &[set], &[]);
+            device.cmd_bind_index_buffer(self.raw, geometry.indices.raw, 0, width);
+            if let Some(positions) = &geometry.positions {
+                device.cmd_bind_vertex_buffers(self.raw, 0, &[positions.raw], &[0]);
+            }
+        }
+        draw(&Pass {
+            device,
+            raw: self.raw,
+            layout,
+            geometry,
+        });
+        // SAFETY: the pass was begun above.
+        unsafe { device.cmd_end_render_pass(self.raw) }
+    }
+
+    /// Counts what the commands do.
+    pub fn counted(&self, statistics: Option<&Statistics<'g>>, record: impl FnOnce()) {
+        let Some(statistics) = statistics else {
+            return record();
+        };
+        let device = &self.gpu.device;
+        let flags = vk::QueryControlFlags::empty();
+        // SAFETY: outside a pass; the query is not in use.
+        unsafe {
+            device.cmd_reset_query_pool(self.raw, statistics.raw(), 0, 1);
+            device.cmd_begin_query(self.raw, statistics.raw(), 0, flags);
+        }
+        record();
+        // SAFETY: it was begun above, outside a pass too.
+        unsafe { device.cmd_end_query(self.raw, statistics.raw(), 0) }
+    }
+
+    /// Makes all timestamps ready to be written.
+    pub fn reset(&self, timestamps: &Timestamps<'g>) {
+        let device = &self.gpu.device;
+        // SAFETY: outside a pass.
+        unsafe { device.cmd_reset_query_pool(self.raw, timestamps.raw(), 0, timestamps.count()) }
+    }
+
+    /// Writes timestamp `number` once all that came before is done.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    pub fn timestamp(&self, timestamps: &Timestamps<'g>, number: u32) {
+        assert!(number < timestamps.count());
+        let stage = vk::PipelineStageFlags::BOTTOM_OF_PIPE;
+        let device = &self.gpu.device;
+        // SAFETY: the query exists and was reset by the caller's `reset`; it is written once.
+        unsafe { device.cmd_write_timestamp(self.raw, stage, timestamps.raw(), number) }
+    }
+}
+
+impl Pass<'_> {
+    /// Draws once, with these four floats for the shader: what is added to positions, and what they are
+    /// multiplied by.
+    pub fn draw(&self, place: [f32; 4]) {
+        let mut bytes = [0; 16];
+        for (to, from) in bytes.chunks_exact_mut(4).zip(place) {
+            to.copy_from_slice(&from.to_ne_bytes());
+        }
+        let stage = vk::ShaderStageFlags::VERTEX;
+        let geometry = self.geometry;
+        // SAFETY: a pipeline with this layout and the geometry's buffers are bound; a `Geometry` holds
+        // all its indices and every vertex that these name.
+        unsafe {
+            let (device, raw) = (self.device, self.raw);
+            device.cmd_push_constants(raw, self.layout, stage, 0, &bytes);
+            let (count, instances) = (geometry.count, geometry.instances);
+            device.cmd_draw_indexed(raw, count, instances, 0, geometry.vertex_offset, 0);
+        }
+    }
+}
+
+impl fmt::Debug for Commands<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Commands").finish_non_exhaustive()
+    }
+}
+
+impl fmt::Debug for Pass<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Pass").finish_non_exhaustive()
+    }
+}
