@@ -6,6 +6,15 @@
 
 use crate::draw::{Draw, RESTART, Topology};
 
+/// What one warp does.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Batch {
+    /// The vertex of each lane.
+    pub vertices: Vec<u32>,
+    /// The lanes of each face's corners.
+    pub faces: Vec<[u32; 3]>,
+}
+
 /// The rule; every limit is the largest that is still allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BatchRule {
@@ -28,12 +37,12 @@ impl BatchRule {
         block_bits: 16,
     };
 
-    /// The batches of one draw: for each, the vertices of its lanes, in lane order.
+    /// The batches of one draw.
     ///
     /// # Complexity
     /// Time O(corners · window).
     #[must_use]
-    pub fn batches(&self, draw: &Draw<'_>) -> Vec<Vec<u32>> {
+    pub fn batches(&self, draw: &Draw<'_>) -> Vec<Batch> {
         let mut filling = Filling::new(*self);
         let primitives = primitives(draw);
         for instance in 0..draw.instances {
@@ -52,7 +61,7 @@ impl BatchRule {
     #[must_use]
     pub fn counts(&self, draw: &Draw<'_>) -> (u64, u64) {
         let batches = self.batches(draw);
-        let lanes: usize = batches.iter().map(Vec::len).sum();
+        let lanes: usize = batches.iter().map(|batch| batch.vertices.len()).sum();
         (lanes as u64, batches.len() as u64)
     }
 
@@ -89,20 +98,20 @@ fn primitives(draw: &Draw<'_>) -> Vec<[u32; 3]> {
 struct Corner {
     vertex: u32,
     instance: u32,
+    /// The lane of its vertex.
+    lane: u32,
+    /// Where the run that it is in starts: block or instance changed there.
+    run: usize,
 }
 
 /// The batches so far.
 #[derive(Debug)]
 struct Filling {
     rule: BatchRule,
-    batches: Vec<Vec<u32>>,
-    /// The primitives of the last batch.
-    primitives: u32,
+    batches: Vec<Batch>,
     /// All corners so far, of which the last batch has those from `start` on.
     corners: Vec<Corner>,
     start: usize,
-    /// Where block or instance changed last.
-    run: usize,
 }
 
 impl Filling {
@@ -110,60 +119,69 @@ impl Filling {
         Self {
             rule,
             batches: Vec::new(),
-            // Full: the first primitive starts a batch.
-            primitives: u32::MAX,
             corners: Vec::new(),
             start: 0,
-            run: 0,
         }
     }
 
     fn draw(&mut self, vertices: [u32; 3], instance: u32) {
-        // The corners, and where each one's run starts.
         let first = self.corners.len();
-        let mut runs = [0; 3];
-        for (run, vertex) in runs.iter_mut().zip(vertices) {
-            let corner = Corner { vertex, instance };
-            let is_new = self.corners.last().is_none_or(|before| {
-                before.instance != instance
-                    || self.rule.block(before.vertex) != self.rule.block(vertex)
+        for vertex in vertices {
+            let run = match self.corners.last() {
+                Some(last) if self.are_together(last, vertex, instance) => last.run,
+                _ => self.corners.len(),
+            };
+            self.corners.push(Corner {
+                vertex,
+                instance,
+                lane: 0,
+                run,
             });
-            if is_new {
-                self.run = self.corners.len();
-            }
-            *run = self.run;
-            self.corners.push(corner);
         }
 
         // Into the last batch, or a new one.
-        let mut missing = self.missing(first, runs);
-        let lanes = self.batches.last().map_or(0, Vec::len);
-        if self.primitives >= self.rule.primitives
-            || lanes + missing.len() > self.rule.lanes as usize
-        {
-            self.batches.push(Vec::new());
-            self.primitives = 0;
+        let missing = (first..first + 3)
+            .filter(|&at| self.found(at).is_none())
+            .count();
+        let has_room = self.batches.last().is_some_and(|batch| {
+            batch.faces.len() < self.rule.primitives as usize
+                && batch.vertices.len() + missing <= self.rule.lanes as usize
+        });
+        if !has_room {
+            self.batches.push(Batch::default());
             self.start = first;
-            missing = self.missing(first, runs);
         }
-        self.primitives += 1;
+
+        // Lanes in corner order.
+        let mut lanes = [0; 3];
+        for (at, lane) in (first..).zip(&mut lanes) {
+            let found = self.found(at).map(|earlier| self.corners[earlier].lane);
+            if let Some(batch) = self.batches.last_mut() {
+                *lane = found.unwrap_or_else(|| {
+                    batch.vertices.push(self.corners[at].vertex);
+                    batch.vertices.len() as u32 - 1
+                });
+            }
+            self.corners[at].lane = *lane;
+        }
         if let Some(batch) = self.batches.last_mut() {
-            batch.extend(missing);
+            batch.faces.push(lanes);
         }
     }
 
-    /// The vertices of the three corners from `first` on that are not found.
-    fn missing(&self, first: usize, runs: [usize; 3]) -> Vec<u32> {
-        let mut missing = Vec::with_capacity(3);
-        for (at, run) in (first..).zip(runs) {
-            let oldest = at.saturating_sub(self.rule.window as usize);
-            let from = self.start.max(run).max(oldest);
-            let corner = self.corners[at];
-            if !self.corners[from.min(at)..at].contains(&corner) {
-                missing.push(corner.vertex);
-            }
-        }
-        missing
+    /// Whether nothing is forgotten between a corner and the next.
+    fn are_together(&self, last: &Corner, vertex: u32, instance: u32) -> bool {
+        last.instance == instance && self.rule.block(last.vertex) == self.rule.block(vertex)
+    }
+
+    /// The last corner before this one at which its vertex is found.
+    fn found(&self, at: usize) -> Option<usize> {
+        let corner = self.corners[at];
+        let oldest = at.saturating_sub(self.rule.window as usize);
+        let from = self.start.max(corner.run).max(oldest).min(at);
+        let is_same = |earlier: &Corner| earlier.vertex == corner.vertex;
+        let found = self.corners[from..at].iter().rposition(is_same);
+        found.map(|found| from + found)
     }
 }
 
@@ -174,7 +192,8 @@ mod tests {
     const RULE: BatchRule = BatchRule::NVIDIA;
 
     fn lanes(draw: &Draw<'_>) -> Vec<usize> {
-        RULE.batches(draw).iter().map(Vec::len).collect()
+        let batches = RULE.batches(draw);
+        batches.iter().map(|batch| batch.vertices.len()).collect()
     }
 
     #[test]
@@ -221,6 +240,18 @@ mod tests {
         };
         // … 4, 5, 6 | 6, 5, 7: blocks 0 0 1 | 1 0 1, so 5 and 7 miss.
         assert_eq!(lanes(&draw), [5]);
+    }
+
+    #[test]
+    fn a_vertex_that_fell_out_gets_a_second_lane() {
+        let mut indices = vec![9, 9, 0];
+        indices.extend([1, 2, 3].repeat(14));
+        indices.extend([0, 0, 0]);
+        let batches = RULE.batches(&Draw::list(&indices));
+        assert_eq!(batches.len(), 1);
+        assert_eq!(batches[0].vertices, [9, 0, 1, 2, 3, 0]);
+        assert_eq!(batches[0].faces[0], [0, 0, 1]);
+        assert_eq!(batches[0].faces[15], [5, 5, 5]);
     }
 
     #[test]

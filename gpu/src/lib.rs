@@ -2,7 +2,7 @@
 //! how long it takes with what the models of meshweft say.
 //!
 //! [`vulkan`] is all that talks to the card, and all that is unsafe. [`renderer`] counts, logs and times
-//! one draw. [`predict`] and [`bench`] are the jobs of the program `meshweft-gpu`.
+//! one draw. [`predict`], [`bench`], [`probe`] and [`paper`] are the jobs of the program `meshweft-gpu`.
 
 pub mod batch_rule;
 pub mod bench;
@@ -12,7 +12,11 @@ pub mod lavapipe;
 pub mod meshes;
 pub mod model;
 pub mod orders;
+pub mod paper;
 pub mod predict;
+pub mod probe;
+mod random;
 pub mod renderer;
+pub mod setup;
 pub mod vulkan;
 pub mod workload;

@@ -5,11 +5,12 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use gpu::error::GpuError;
+use gpu::meshes::NamedMesh;
 use gpu::model::Model;
 use gpu::orders::Order;
 use gpu::renderer::Renderer;
 use gpu::vulkan::{Gpu, Instance};
-use gpu::{bench, meshes, predict};
+use gpu::{bench, meshes, paper, predict, probe};
 use serde_json::{Value, json};
 
 /// Draws meshes on a graphics card, through Vulkan and without a window, and compares what it counts
@@ -33,13 +34,54 @@ enum Verb {
     Predict(Drawn),
     /// Time orders against each other
     Bench(Drawn),
+    /// Print the frame rates of Bogomjakov and Gotsman's Table 2 beside this card's
+    Paper(Files),
+    /// Find out how the card collects vertices, and where that differs from the model
+    Probe,
+}
+
+#[derive(Debug, Args)]
+struct Files {
+    /// Mesh files
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Leave out files that cannot be read, and say how many
+    #[arg(long)]
+    skip_unreadable: bool,
+}
+
+impl Files {
+    fn meshes(&self) -> Result<Vec<NamedMesh>, GpuError> {
+        let (mut read, mut skipped) = (Vec::new(), 0);
+        for file in &self.files {
+            match meshes::read(file) {
+                Ok(meshes) if meshes.is_empty() => skipped += 1,
+                Ok(meshes) => read.extend(meshes),
+                Err(error) if self.skip_unreadable => {
+                    eprintln!("left out: {error}");
+                    skipped += 1;
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        if read.is_empty() {
+            return Err(GpuError::Input(
+                "no file has a face: name a mesh file".to_owned(),
+            ));
+        }
+        println!(
+            "{} files, {} meshes, {skipped} files left out",
+            self.files.len(),
+            read.len()
+        );
+        Ok(read)
+    }
 }
 
 #[derive(Debug, Args)]
 struct Drawn {
-    /// Mesh files
-    #[arg(required = true)]
-    files: Vec<PathBuf>,
+    #[command(flatten)]
+    files: Files,
     /// Orders, with commas between them: file, random, meshopt, meshopt-strip, meshopt-fifo:K,
     /// recursive-cut, linear-arrangement, or a target with its effort (universal, nvidia-best, fifo:16).
     /// The first is what times are relative to
@@ -84,7 +126,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, GpuError> {
     };
     let Some(verb) = &arguments.verb else {
         return Err(GpuError::Input(
-            "nothing to do: predict, bench; --help explains".to_owned(),
+            "nothing to do: predict, bench, probe, paper; --help explains".to_owned(),
         ));
     };
     let gpu = Gpu::open(number)?;
@@ -108,7 +150,7 @@ fn act(renderer: &Renderer<'_>, verb: &Verb) -> Result<(ExitCode, Value), GpuErr
                 true => println!("model: {model}"),
                 false => println!("model: {model}, to compare with: none is known for this card"),
             }
-            let meshes = meshes::read_all(&drawn.files)?;
+            let meshes = drawn.files.meshes()?;
             let orders = drawn.orders_or(&[
                 "file",
                 "meshopt",
@@ -125,8 +167,10 @@ fn act(renderer: &Renderer<'_>, verb: &Verb) -> Result<(ExitCode, Value), GpuErr
             let is_wrong = outcome.disputed > 0 || (is_the_cards && outcome.unpredicted > 0);
             Ok((ExitCode::from(u8::from(is_wrong)), figures))
         }
+        Verb::Probe => Ok((ExitCode::SUCCESS, probe::run(renderer)?)),
+        Verb::Paper(files) => Ok((ExitCode::SUCCESS, paper::run(renderer, &files.meshes()?)?)),
         Verb::Bench(drawn) => {
-            let meshes = meshes::read_all(&drawn.files)?;
+            let meshes = drawn.files.meshes()?;
             let orders = drawn.orders_or(&[
                 "meshopt",
                 "meshopt-strip",

@@ -44,25 +44,9 @@ pub fn read(file: &Path) -> Result<Vec<NamedMesh>, GpuError> {
     Ok(meshes)
 }
 
-/// All meshes of these files.
-///
-/// # Errors
-/// If a file cannot be read, or none has a face.
-pub fn read_all(files: &[impl AsRef<Path>]) -> Result<Vec<NamedMesh>, GpuError> {
-    let mut meshes = Vec::new();
-    for file in files {
-        meshes.extend(read(file.as_ref())?);
-    }
-    match meshes.is_empty() {
-        true => Err(GpuError::input("no file has a face: name a mesh file")),
-        false => Ok(meshes),
-    }
-}
-
 /// As many positions as there are vertices, moved and scaled into the cube from -1 to 1; those that are
 /// missing or not finite are at the origin.
 fn in_unit_cube(mut positions: Vec<[f32; 3]>, vertex_count: usize) -> Vec<[f32; 3]> {
-    positions.resize(vertex_count, [0.0; 3]);
     let is_finite = |position: &[f32; 3]| position.iter().all(|x| x.is_finite());
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for position in positions.iter().filter(|p| is_finite(p)) {
@@ -83,6 +67,7 @@ fn in_unit_cube(mut positions: Vec<[f32; 3]>, vertex_count: usize) -> Vec<[f32; 
             false => [0.0; 3],
         };
     }
+    positions.resize(vertex_count, [0.0; 3]);
     positions
 }
 
@@ -96,12 +81,7 @@ mod tests {
         let placed = in_unit_cube(positions, 4);
         assert_eq!(
             placed,
-            [
-                [-1.0, 0.0, -0.25],
-                [1.0, 0.0, 0.25],
-                [0.0; 3],
-                [-1.0, -1.0, -1.0]
-            ]
+            [[-1.0, 0.0, -0.25], [1.0, 0.0, 0.25], [0.0; 3], [0.0; 3]]
         );
         assert_eq!(in_unit_cube(Vec::new(), 1), [[0.0; 3]]);
         assert_eq!(in_unit_cube(vec![[f32::NAN; 3]], 1), [[0.0; 3]]);

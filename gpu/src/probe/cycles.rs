@@ -1,0 +1,140 @@
+//! What the faces of a batch cost, timed: batches of 32 faces that share vertices in known ways.
+
+use serde_json::{Value, json};
+
+use crate::batch_rule::BatchRule;
+use crate::draw::Draw;
+use crate::error::GpuError;
+use crate::random::Random;
+use crate::renderer::{Renderer, Sampling};
+use crate::setup;
+use crate::workload::Workload;
+
+/// Faces of a batch.
+const FACES: u32 = 32;
+/// Batches of a draw: 131,072 faces.
+const BATCHES: u32 = 4096;
+/// Vertices of a draw: one block, so that nothing is forgotten where numbers come round.
+const VERTICES: u32 = 1 << 16;
+/// Most lanes of a template: from 29 on another limit holds a card up.
+const MOST_LANES: usize = 28;
+/// How far a time may be off before it is listed, in cycles a batch.
+const TOLERANCE: f64 = 0.25;
+
+/// A batch that is drawn again and again with other vertices.
+#[derive(Debug)]
+struct Template {
+    name: String,
+    indices: Vec<u32>,
+}
+
+/// Times all templates relative to one face drawn 32 times, which the model says takes 35 cycles, and
+/// prints those that take something else than the model says. Nothing where times say nothing.
+pub(super) fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
+    if !renderer.gpu().times_mean_something() {
+        println!("setup cycles: not timed, as a program draws here and not a card");
+        return Ok(Value::Null);
+    }
+    let sampling = Sampling {
+        samples: 30,
+        draws: 6,
+    };
+    let repeated = [0, 1, 2].repeat(FACES as usize);
+    let unit = upload(renderer, &repeated)?;
+    renderer.warm_up(&unit, sampling)?;
+    let mut unit_ns = renderer.time(&unit, Workload::Triangles, sampling)?;
+    let (mut worst, mut off, mut rows) = (0.0_f64, 0, Vec::new());
+    for template in templates() {
+        let batches = BatchRule::NVIDIA.batches(&Draw::list(&template.indices));
+        let [batch] = batches.as_slice() else {
+            continue;
+        };
+        if batch.vertices.len() > MOST_LANES {
+            continue;
+        }
+        let model = setup::cycles(&batch.faces);
+
+        // The unit before and after, so that a change of clocks cancels out.
+        let ns = renderer.time(
+            &upload(renderer, &template.indices)?,
+            Workload::Triangles,
+            sampling,
+        )?;
+        let after = renderer.time(&unit, Workload::Triangles, sampling)?;
+        let cycles = 35.0 * ns / ((unit_ns + after) / 2.0);
+        unit_ns = after;
+
+        let difference = cycles - model as f64;
+        worst = worst.max(difference.abs());
+        if difference.abs() > TOLERANCE {
+            off += 1;
+            println!("  {}: {cycles:.2} cycles, model {model}", template.name);
+        }
+        rows.push(json!({"name": template.name, "cycles": cycles, "model": model}));
+    }
+    println!(
+        "setup cycles: {} batches timed, {off} more than {TOLERANCE} off the model, at most {worst:.2}; a \
+         cycle takes {:.4} ns",
+        rows.len(),
+        unit_ns / f64::from(BATCHES) / 35.0
+    );
+    Ok(Value::Array(rows))
+}
+
+/// The draw that repeats a batch, each time with vertices of its own.
+fn upload<'g>(
+    renderer: &Renderer<'g>,
+    template: &[u32],
+) -> Result<crate::vulkan::Geometry<'g>, GpuError> {
+    let step = template.iter().max().map_or(1, |most| most + 1);
+    let starts = (0..BATCHES).map(|batch| batch * step % (VERTICES - step));
+    let indices: Vec<u32> = starts
+        .flat_map(|start| template.iter().map(move |index| start + index))
+        .collect();
+    let positions = vec![[0.0; 3]; VERTICES as usize];
+    renderer.upload(&Draw {
+        positions: Some(&positions),
+        ..Draw::list(&indices)
+    })
+}
+
+fn templates() -> Vec<Template> {
+    let mut templates = Vec::new();
+    let mut add = |name: String, corner: &mut dyn FnMut(u32) -> u32| {
+        let indices = (0..3 * FACES).map(corner).collect();
+        templates.push(Template { name, indices });
+    };
+    for faces in 1..=9 {
+        add(format!("cycle of {faces} faces"), &mut |corner| {
+            corner % (3 * faces)
+        });
+    }
+    for vertices in 4..=MOST_LANES as u32 {
+        add(format!("cycle of {vertices} vertices"), &mut |corner| {
+            corner % vertices
+        });
+        // Up and down, as a strip that turns round.
+        let turn = vertices - 2;
+        add(
+            format!("strip of {turn} faces, again and again"),
+            &mut |corner| corner / 3 % turn + corner % 3,
+        );
+        add(
+            format!("fan of {turn} faces, again and again"),
+            &mut |corner| match corner % 3 {
+                0 => 0,
+                side => 1 + (corner / 3 + side - 1) % (vertices - 1),
+            },
+        );
+    }
+    for width in [4, 6, 8, 10, 12, 14, 16] {
+        for seed in 0..8 {
+            let mut random = Random::new(seed);
+            // The window moves by 12 over the batch.
+            add(format!("window {width}, {seed}"), &mut |corner| {
+                corner / 3 * 12 / FACES + random.below(width)
+            });
+        }
+    }
+    templates
+}
