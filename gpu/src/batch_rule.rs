@@ -159,7 +159,7 @@ impl Filling {
             if let Some(batch) = self.batches.last_mut() {
                 *lane = found.unwrap_or_else(|| {
                     batch.vertices.push(self.corners[at].vertex);
-                    batch.vertices.len() as u32 - 1
+                    u32::try_from(batch.vertices.len() - 1).expect("at most `lanes`")
                 });
             }
             self.corners[at].lane = *lane;

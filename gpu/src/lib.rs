@@ -6,6 +6,7 @@
 
 pub mod batch_rule;
 pub mod bench;
+mod clock;
 pub mod draw;
 pub mod error;
 pub mod lavapipe;

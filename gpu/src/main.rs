@@ -1,6 +1,8 @@
 //! `meshweft-gpu`: what a graphics card does with orders.
 
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -129,17 +131,28 @@ fn run(arguments: &Arguments) -> Result<ExitCode, GpuError> {
             "nothing to do: predict, bench, probe, paper; --help explains".to_owned(),
         ));
     };
+    // Before anything takes time.
+    let json = match &arguments.json {
+        Some(file) => Some((
+            file,
+            File::create(file).map_err(|error| cannot_write(file, &error))?,
+        )),
+        None => None,
+    };
     let gpu = Gpu::open(number)?;
     let renderer = Renderer::new(&gpu)?;
     let card = gpu.card();
     println!("card: {card}");
     let (code, figures) = act(&renderer, verb)?;
-    if let Some(file) = &arguments.json {
+    if let Some((file, mut written)) = json {
         let all = json!({"card": card.name, "driver": card.driver, "figures": figures});
-        std::fs::write(file, format!("{all:#}\n"))
-            .map_err(|error| GpuError::Input(format!("{}: {error}", file.display())))?;
+        writeln!(written, "{all:#}").map_err(|error| cannot_write(file, &error))?;
     }
     Ok(code)
+}
+
+fn cannot_write(file: &Path, error: &io::Error) -> GpuError {
+    GpuError::Input(format!("{} cannot be written: {error}", file.display()))
 }
 
 fn act(renderer: &Renderer<'_>, verb: &Verb) -> Result<(ExitCode, Value), GpuError> {

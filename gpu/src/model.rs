@@ -7,6 +7,7 @@ use ash::vk;
 use crate::batch_rule::BatchRule;
 use crate::draw::{Draw, Topology};
 use crate::lavapipe;
+use crate::setup;
 use crate::vulkan::Card;
 
 /// A model of vertex reuse.
@@ -26,6 +27,8 @@ pub struct Prediction {
     pub invocations: u64,
     /// Batches, each of which is a warp, if there are any.
     pub warps: Option<u64>,
+    /// Cycles of primitive setup, if it is known.
+    pub cycles: Option<u64>,
 }
 
 impl Model {
@@ -44,10 +47,13 @@ impl Model {
     pub fn predict(self, draw: &Draw<'_>) -> Option<Prediction> {
         match self {
             Self::Nvidia => {
-                let (invocations, warps) = BatchRule::NVIDIA.counts(draw);
+                let batches = BatchRule::NVIDIA.batches(draw);
+                let lanes: usize = batches.iter().map(|batch| batch.vertices.len()).sum();
+                let cycles = batches.iter().map(|batch| setup::cycles(&batch.faces));
                 Some(Prediction {
-                    invocations,
-                    warps: Some(warps),
+                    invocations: lanes as u64,
+                    warps: Some(batches.len() as u64),
+                    cycles: Some(cycles.sum()),
                 })
             }
             Self::Lavapipe => {
@@ -56,6 +62,7 @@ impl Model {
                     invocations: u64::from(draw.instances)
                         * lavapipe::invocations(draw.indices, draw.vertex_offset),
                     warps: None,
+                    cycles: None,
                 })
             }
         }

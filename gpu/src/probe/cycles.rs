@@ -3,21 +3,15 @@
 use serde_json::{Value, json};
 
 use crate::batch_rule::BatchRule;
+use crate::clock::{Clock, FACES};
 use crate::draw::Draw;
 use crate::error::GpuError;
 use crate::random::Random;
-use crate::renderer::{Renderer, Sampling};
+use crate::renderer::Renderer;
 use crate::setup;
-use crate::workload::Workload;
 
-/// Faces of a batch.
-const FACES: u32 = 32;
-/// Batches of a draw: 131,072 faces.
-const BATCHES: u32 = 4096;
-/// Vertices of a draw: one block, so that nothing is forgotten where numbers come round.
-const VERTICES: u32 = 1 << 16;
 /// Most lanes of a template: from 29 on another limit holds a card up.
-const MOST_LANES: usize = 28;
+const MOST_LANES: u32 = 28;
 /// How far a time may be off before it is listed, in cycles a batch.
 const TOLERANCE: f64 = 0.25;
 
@@ -35,35 +29,18 @@ pub(super) fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
         println!("setup cycles: not timed, as a program draws here and not a card");
         return Ok(Value::Null);
     }
-    let sampling = Sampling {
-        samples: 30,
-        draws: 6,
-    };
-    let repeated = [0, 1, 2].repeat(FACES as usize);
-    let unit = upload(renderer, &repeated)?;
-    renderer.warm_up(&unit, sampling)?;
-    let mut unit_ns = renderer.time(&unit, Workload::Triangles, sampling)?;
+    let clock = Clock::new(renderer)?;
     let (mut worst, mut off, mut rows) = (0.0_f64, 0, Vec::new());
     for template in templates() {
         let batches = BatchRule::NVIDIA.batches(&Draw::list(&template.indices));
         let [batch] = batches.as_slice() else {
             continue;
         };
-        if batch.vertices.len() > MOST_LANES {
+        if batch.vertices.len() > MOST_LANES as usize {
             continue;
         }
         let model = setup::cycles(&batch.faces);
-
-        // The unit before and after, so that a change of clocks cancels out.
-        let ns = renderer.time(
-            &upload(renderer, &template.indices)?,
-            Workload::Triangles,
-            sampling,
-        )?;
-        let after = renderer.time(&unit, Workload::Triangles, sampling)?;
-        let cycles = 35.0 * ns / ((unit_ns + after) / 2.0);
-        unit_ns = after;
-
+        let cycles = clock.cycles(&template.indices)?;
         let difference = cycles - model as f64;
         worst = worst.max(difference.abs());
         if difference.abs() > TOLERANCE {
@@ -76,26 +53,9 @@ pub(super) fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
         "setup cycles: {} batches timed, {off} more than {TOLERANCE} off the model, at most {worst:.2}; a \
          cycle takes {:.4} ns",
         rows.len(),
-        unit_ns / f64::from(BATCHES) / 35.0
+        clock.cycle()?
     );
     Ok(Value::Array(rows))
-}
-
-/// The draw that repeats a batch, each time with vertices of its own.
-fn upload<'g>(
-    renderer: &Renderer<'g>,
-    template: &[u32],
-) -> Result<crate::vulkan::Geometry<'g>, GpuError> {
-    let step = template.iter().max().map_or(1, |most| most + 1);
-    let starts = (0..BATCHES).map(|batch| batch * step % (VERTICES - step));
-    let indices: Vec<u32> = starts
-        .flat_map(|start| template.iter().map(move |index| start + index))
-        .collect();
-    let positions = vec![[0.0; 3]; VERTICES as usize];
-    renderer.upload(&Draw {
-        positions: Some(&positions),
-        ..Draw::list(&indices)
-    })
 }
 
 fn templates() -> Vec<Template> {
@@ -109,7 +69,7 @@ fn templates() -> Vec<Template> {
             corner % (3 * faces)
         });
     }
-    for vertices in 4..=MOST_LANES as u32 {
+    for vertices in 4..=MOST_LANES {
         add(format!("cycle of {vertices} vertices"), &mut |corner| {
             corner % vertices
         });
