@@ -260,6 +260,7 @@ fn row_json(name: &str, mesh: &Mesh, order: Order, measured: &Measured) -> Value
         "warps": measured.counts.warps,
         "predicted_invocations": measured.prediction.map(|p| p.invocations),
         "predicted_warps": measured.prediction.and_then(|p| p.warps),
+        "predicted_distinct_vertices": measured.prediction.and_then(|p| p.distinct_vertices),
         "predicted_cycles": measured.prediction.and_then(|p| p.cycles),
         "nanoseconds": times,
         "nanoseconds_a_cycle": measured.cycle,

@@ -3,11 +3,10 @@
 use std::fmt;
 
 use ash::vk;
+use meshweft::cache::nvidia;
 
-use crate::batch_rule::BatchRule;
-use crate::draw::{Draw, Topology};
+use crate::draw::{Draw, RESTART, Topology};
 use crate::lavapipe;
-use crate::setup;
 use crate::vulkan::Card;
 
 /// A model of vertex reuse.
@@ -27,6 +26,8 @@ pub struct Prediction {
     pub invocations: u64,
     /// Batches, each of which is a warp, if there are any.
     pub warps: Option<u64>,
+    /// Vertices that each batch uses, added up, if there are batches.
+    pub distinct_vertices: Option<u64>,
     /// Cycles of primitive setup, if it is known.
     pub cycles: Option<u64>,
 }
@@ -47,13 +48,23 @@ impl Model {
     pub fn predict(self, draw: &Draw<'_>) -> Option<Prediction> {
         match self {
             Self::Nvidia => {
-                let batches = BatchRule::NVIDIA.batches(draw);
-                let lanes: usize = batches.iter().map(|batch| batch.vertices.len()).sum();
-                let cycles = batches.iter().map(|batch| setup::cycles(&batch.faces));
+                let counts = nvidia::Draw {
+                    topology: match draw.topology {
+                        Topology::TriangleList => nvidia::PrimitiveTopology::TriangleList,
+                        Topology::TriangleStrip => nvidia::PrimitiveTopology::TriangleStrip,
+                        Topology::TriangleFan => nvidia::PrimitiveTopology::TriangleFan,
+                    },
+                    indices: draw.indices,
+                    restart: draw.restart.then_some(RESTART),
+                    vertex_offset: draw.vertex_offset,
+                    instances: draw.instances,
+                }
+                .counts();
                 Some(Prediction {
-                    invocations: lanes as u64,
-                    warps: Some(batches.len() as u64),
-                    cycles: Some(cycles.sum()),
+                    invocations: counts.invocations,
+                    warps: Some(counts.warps),
+                    distinct_vertices: Some(counts.distinct_vertices),
+                    cycles: Some(counts.setup_cycles),
                 })
             }
             Self::Lavapipe => {
@@ -62,6 +73,7 @@ impl Model {
                     invocations: u64::from(draw.instances)
                         * lavapipe::invocations(draw.indices, draw.vertex_offset),
                     warps: None,
+                    distinct_vertices: None,
                     cycles: None,
                 })
             }
