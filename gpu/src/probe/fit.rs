@@ -1,6 +1,7 @@
 //! The numbers of the rule that explain most probes.
 
 use rayon::prelude::*;
+use serde_json::{Value, json};
 
 use super::Observed;
 use crate::batch_rule::BatchRule;
@@ -89,6 +90,23 @@ pub(super) fn fit(observed: &[Observed]) -> Fit {
     }
 }
 
+impl Fit {
+    pub(super) fn json(&self) -> Value {
+        let numbers = NUMBERS
+            .iter()
+            .zip(self.beside)
+            .map(|(number, [less, more])| {
+                json!({
+                    "name": number.name,
+                    "value": *(number.of)(&mut self.rule.clone()),
+                    "unexplained_one_less": less,
+                    "unexplained_one_more": more,
+                })
+            });
+        json!({"unexplained": self.unexplained, "numbers": numbers.collect::<Vec<_>>()})
+    }
+}
+
 fn with(mut rule: BatchRule, number: Number, value: u32) -> BatchRule {
     *(number.of)(&mut rule) = value;
     rule
@@ -119,7 +137,9 @@ pub(super) fn print(fit: &Fit, probes: usize) {
 mod tests {
     use super::super::families;
     use super::*;
+    use crate::model::Model;
     use crate::renderer::Counts;
+    use crate::setup;
 
     /// What a card with this rule would count.
     fn observed(rule: BatchRule, with_warps: bool) -> Vec<Observed> {
@@ -137,6 +157,26 @@ mod tests {
             }
         };
         probes.into_iter().map(observe).collect()
+    }
+
+    #[test]
+    fn the_library_counts_as_this_rule_does() {
+        for observed in observed(BatchRule::NVIDIA, true) {
+            let prediction = Model::Nvidia.predict(&observed.probe.draw()).unwrap();
+            let batches = BatchRule::NVIDIA.batches(&observed.probe.draw());
+            let cycles: u64 = batches
+                .iter()
+                .map(|batch| setup::cycles(&batch.faces))
+                .sum();
+            let counts = observed.counts;
+            assert_eq!(
+                prediction.invocations, counts.invocations,
+                "{}",
+                observed.probe.name
+            );
+            assert_eq!(prediction.warps, counts.warps, "{}", observed.probe.name);
+            assert_eq!(prediction.cycles, Some(cycles), "{}", observed.probe.name);
+        }
     }
 
     #[test]

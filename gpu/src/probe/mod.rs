@@ -47,15 +47,24 @@ pub fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
     }
     println!("{} probes drawn", observed.len());
     differences(Model::of(renderer.gpu().card()).0, &observed);
-    contents(&observed);
-    match Model::of(renderer.gpu().card()) {
+    let contents = contents(&observed);
+    let fitted = match Model::of(renderer.gpu().card()) {
         (Model::Lavapipe, true) => {
-            println!("batches, fitted: not tried, as this renderer has none")
+            println!("batches, fitted: not tried, as this renderer has none");
+            Value::Null
         }
-        _ => fit::print(&fit::fit(&observed), observed.len()),
-    }
-    let cycles = cycles::run(renderer)?;
-    Ok(json!({"probes": observed.iter().map(Observed::json).collect::<Vec<_>>(), "cycles": cycles}))
+        _ => {
+            let fit = fit::fit(&observed);
+            fit::print(&fit, observed.len());
+            fit.json()
+        }
+    };
+    Ok(json!({
+        "same_contents": contents,
+        "fitted": fitted,
+        "cycles": cycles::run(renderer)?,
+        "probes": observed.iter().map(Observed::json).collect::<Vec<_>>(),
+    }))
 }
 
 /// Prints the draws that the model says something else of.
@@ -82,8 +91,9 @@ fn differences(model: Model, observed: &[Observed]) {
     println!("{model}: {off} of {known} probes differ");
 }
 
-/// Prints in how many probes every group has the vertices that the NVIDIA rule says, lane by lane.
-fn contents(observed: &[Observed]) {
+/// Prints in how many probes every group has the vertices that the NVIDIA rule says, lane by lane, and
+/// returns that, if shaders can tell groups.
+fn contents(observed: &[Observed]) -> Option<usize> {
     let (mut known, mut same) = (0, 0);
     for Observed { probe, groups, .. } in observed {
         let Some(groups) = groups else { continue };
@@ -100,6 +110,7 @@ fn contents(observed: &[Observed]) {
             Model::Nvidia
         ),
     }
+    (known > 0).then_some(same)
 }
 
 /// The vertices of each group in lane order, the groups sorted. Of a log that is sorted.
