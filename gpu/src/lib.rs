@@ -4,6 +4,8 @@
 //! [`vulkan`] is all that talks to the card, and all that is unsafe. [`renderer`] counts, logs and times
 //! one draw. [`predict`], [`bench`], [`probe`] and [`paper`] are the jobs of the program `meshweft-gpu`.
 
+#![deny(unsafe_code)]
+
 pub mod batch_rule;
 pub mod bench;
 mod clock;
@@ -19,5 +21,6 @@ pub mod probe;
 mod random;
 pub mod renderer;
 pub mod setup;
+#[expect(unsafe_code, reason = "calls of Vulkan; each says why it is sound")]
 pub mod vulkan;
 pub mod workload;

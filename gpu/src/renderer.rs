@@ -143,7 +143,7 @@ impl<'g> Renderer<'g> {
         let pipeline = self.pipeline(&settings)?;
         self.gpu.run(|commands| {
             commands.fill_with_zeros(self.layout.counters());
-            commands.counted(self.statistics.as_ref(), || {
+            commands.counted(self.statistics.as_ref(), |commands| {
                 commands.pass(&self.target, &pipeline, geometry, |pass| {
                     pass.draw([0.0; 4])
                 });
@@ -172,34 +172,40 @@ impl<'g> Renderer<'g> {
     ) -> Result<f64, GpuError> {
         let settings = workload.settings(geometry.topology(), geometry.restart());
         let pipeline = self.pipeline(&settings)?;
-        let timestamps = Timestamps::new(self.gpu, 4 * sampling.samples.max(1))?;
-        let mut drawn = 0_u32;
-        let mut draws = |commands: &Commands<'g>, count: u32| {
-            commands.pass(&self.target, &pipeline, geometry, |pass| {
-                for _ in 0..count {
-                    drawn += 1;
-                    // Too little to move anything to another pixel.
-                    let depth = 0.25 + (drawn % 1024) as f32 / 4096.0;
-                    pass.draw([0.0, 0.0, depth, SIZE]);
-                }
-            });
-        };
-
-        // The first draw is not timed: it may still load what it needs.
+        let (samples, draws) = (sampling.samples.max(1), sampling.draws.max(1));
+        let timestamps = Timestamps::new(self.gpu, 4 * samples)?;
         self.gpu.run(|commands| {
-            commands.reset(&timestamps);
-            draws(commands, 1);
-            for sample in 0..sampling.samples.max(1) {
-                for (number, count) in [(0, 1), (2, 1 + sampling.draws.max(1))] {
-                    commands.timestamp(&timestamps, 4 * sample + number);
-                    draws(commands, count);
-                    commands.timestamp(&timestamps, 4 * sample + number + 1);
+            // The first draw is not timed: it may still load what it needs.
+            self.draw(commands, &pipeline, geometry, 1);
+            let mut stamps = commands.stamps(&timestamps);
+            for _ in 0..samples {
+                for count in [1, 1 + draws] {
+                    commands.stamp(&mut stamps);
+                    self.draw(commands, &pipeline, geometry, count);
+                    commands.stamp(&mut stamps);
                 }
             }
         })?;
         let spans = timestamps.spans()?;
-        let difference = |pair: &[f64]| (pair[1] - pair[0]) / f64::from(sampling.draws.max(1));
+        let difference = |pair: &[f64]| (pair[1] - pair[0]) / f64::from(draws);
         Ok(median(spans.chunks_exact(2).map(difference).collect()))
+    }
+
+    /// Draws so often, a constant changed before each.
+    fn draw<'c>(
+        &'c self,
+        commands: &mut Commands<'c>,
+        pipeline: &'c Pipeline<'c>,
+        geometry: &'c Geometry<'c>,
+        count: u32,
+    ) {
+        commands.pass(&self.target, pipeline, geometry, |pass| {
+            for number in 0..count {
+                // Too little to matter, and inside the picture's depth.
+                let depth = 0.25 + (number % 1024) as f32 / 4096.0;
+                pass.draw([0.0, 0.0, depth, SIZE]);
+            }
+        });
     }
 
     /// Draws for a third of a second, so that the clocks of a card that was idle have risen when times are

@@ -12,7 +12,7 @@ use crate::error::GpuError;
 /// Its words are in the card's own memory, where it is fastest; they are copied in and out through
 /// memory that both sides see.
 pub struct Buffer<'g> {
-    gpu: &'g Gpu,
+    pub(super) gpu: &'g Gpu,
     pub(super) raw: vk::Buffer,
     memory: vk::DeviceMemory,
     words: usize,

@@ -11,33 +11,43 @@ use super::pipeline::Pipeline;
 use super::queries::{Statistics, Timestamps};
 use super::target::Target;
 
-/// Commands that are being recorded.
-pub struct Commands<'g> {
-    gpu: &'g Gpu,
+/// Commands that are being recorded. What they name is borrowed for `'c`, until they have run.
+pub struct Commands<'c> {
+    gpu: &'c Gpu,
     pub(super) raw: vk::CommandBuffer,
 }
 
 /// Inside a render pass, with one pipeline and one geometry.
-pub struct Pass<'c> {
-    device: &'c ash::Device,
+pub struct Pass<'p> {
+    device: &'p ash::Device,
     raw: vk::CommandBuffer,
     layout: vk::PipelineLayout,
-    geometry: &'c Geometry<'c>,
+    geometry: &'p Geometry<'p>,
 }
 
-impl<'g> Commands<'g> {
-    pub(super) fn new(gpu: &'g Gpu, raw: vk::CommandBuffer) -> Self {
+/// Timestamps that are ready to be written, in turn.
+#[derive(Debug)]
+pub struct Stamps {
+    pool: vk::QueryPool,
+    count: u32,
+    written: u32,
+}
+
+impl<'c> Commands<'c> {
+    pub(super) fn new(gpu: &'c Gpu, raw: vk::CommandBuffer) -> Self {
         Self { gpu, raw }
     }
 
     /// Sets a buffer to zeros.
-    pub fn fill_with_zeros(&self, buffer: &Buffer<'_>) {
-        // SAFETY: commands are being recorded outside a pass, here and below; the buffer lives until
-        // `run` has waited for them.
-        unsafe {
-            let device = &self.gpu.device;
-            device.cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, 0);
-        }
+    ///
+    /// # Panics
+    /// Like all of these methods: if something is of another [`Gpu`].
+    pub fn fill_with_zeros(&mut self, buffer: &'c Buffer<'c>) {
+        self.check(buffer.gpu);
+        let device = &self.gpu.device;
+        // SAFETY: commands are being recorded outside a pass, here and below: a pass keeps `self`
+        // borrowed. The buffer is this device's and lives until they have run.
+        unsafe { device.cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, 0) }
         self.wait();
     }
 
@@ -45,22 +55,22 @@ impl<'g> Commands<'g> {
     ///
     /// # Panics
     /// If one of them has fewer words.
-    pub fn copy(&self, from: &Buffer<'_>, to: &Buffer<'_>, words: usize) {
+    pub fn copy(&mut self, from: &'c Buffer<'c>, to: &'c Buffer<'c>, words: usize) {
+        self.check(from.gpu);
+        self.check(to.gpu);
         assert!(words <= from.words() && words <= to.words());
         if words == 0 {
             return;
         }
         let regions = [vk::BufferCopy::default().size(words as u64 * 4)];
+        let device = &self.gpu.device;
         // SAFETY: as above; the region is inside both.
-        unsafe {
-            let device = &self.gpu.device;
-            device.cmd_copy_buffer(self.raw, from.raw, to.raw, &regions);
-        }
+        unsafe { device.cmd_copy_buffer(self.raw, from.raw, to.raw, &regions) }
         self.wait();
     }
 
     /// Makes all that follows wait for all that came before.
-    fn wait(&self) {
+    fn wait(&mut self) {
         let memory = [vk::MemoryBarrier::default()
             .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
             .dst_access_mask(
@@ -88,16 +98,22 @@ impl<'g> Commands<'g> {
     /// # Panics
     /// If the pipeline is for other primitives, or takes positions and there are none.
     pub fn pass(
-        &self,
-        target: &Target<'g>,
-        pipeline: &Pipeline<'g>,
-        geometry: &Geometry<'_>,
-        draw: impl FnOnce(&Pass<'_>),
+        &mut self,
+        target: &'c Target<'c>,
+        pipeline: &'c Pipeline<'c>,
+        geometry: &'c Geometry<'c>,
+        draw: impl FnOnce(&mut Pass<'_>),
     ) {
+        // Whether they fit each other.
+        self.check(target.gpu);
+        self.check(pipeline.gpu);
+        self.check(geometry.indices.gpu);
         let settings = &pipeline.settings;
         assert_eq!(settings.topology, geometry.topology);
         assert_eq!(settings.restart, geometry.restart);
         assert!(!settings.positions || geometry.positions.is_some());
+
+        // All that a draw needs.
         let device = &self.gpu.device;
         let side = Target::SIDE;
         let area = vk::Rect2D::default().extent(vk::Extent2D {
@@ -114,8 +130,8 @@ impl<'g> Commands<'g> {
             false => vk::IndexType::UINT32,
         };
         let graphics = vk::PipelineBindPoint::GRAPHICS;
-        // SAFETY: commands are being recorded, no pass is open (`Pass` cannot open one), and all that
-        // is named lives until `run` has waited.
+        // SAFETY: commands are being recorded outside a pass; all that is named is this device's and
+        // lives until they have run.
         unsafe {
             device.cmd_begin_render_pass(self.raw, &begin, vk::SubpassContents::INLINE);
             device.cmd_bind_pipeline(self.raw, graphics, pipeline.raw);
@@ -125,7 +141,8 @@ impl<'g> Commands<'g> {
                 device.cmd_bind_vertex_buffers(self.raw, 0, &[positions.raw], &[0]);
             }
         }
-        draw(&Pass {
+
+        draw(&mut Pass {
             device,
             raw: self.raw,
             layout,
@@ -135,47 +152,69 @@ impl<'g> Commands<'g> {
         unsafe { device.cmd_end_render_pass(self.raw) }
     }
 
-    /// Counts what the commands do.
-    pub fn counted(&self, statistics: Option<&Statistics<'g>>, record: impl FnOnce()) {
+    /// Counts what the commands do that `record` records.
+    pub fn counted(
+        &mut self,
+        statistics: Option<&'c Statistics<'c>>,
+        record: impl FnOnce(&mut Self),
+    ) {
         let Some(statistics) = statistics else {
-            return record();
+            return record(self);
         };
+        self.check(statistics.gpu());
+        let (raw, pool) = (self.raw, statistics.raw());
         let device = &self.gpu.device;
         let flags = vk::QueryControlFlags::empty();
-        // SAFETY: outside a pass; the query is not in use.
+        // SAFETY: outside a pass; the query is this device's and not in use.
         unsafe {
-            device.cmd_reset_query_pool(self.raw, statistics.raw(), 0, 1);
-            device.cmd_begin_query(self.raw, statistics.raw(), 0, flags);
+            device.cmd_reset_query_pool(raw, pool, 0, 1);
+            device.cmd_begin_query(raw, pool, 0, flags);
         }
-        record();
+        record(self);
         // SAFETY: it was begun above, outside a pass too.
-        unsafe { device.cmd_end_query(self.raw, statistics.raw(), 0) }
+        unsafe { self.gpu.device.cmd_end_query(raw, pool, 0) }
     }
 
-    /// Makes all timestamps ready to be written.
-    pub fn reset(&self, timestamps: &Timestamps<'g>) {
-        let device = &self.gpu.device;
-        // SAFETY: outside a pass.
-        unsafe { device.cmd_reset_query_pool(self.raw, timestamps.raw(), 0, timestamps.count()) }
+    /// Makes timestamps ready to be written.
+    pub fn stamps(&mut self, timestamps: &'c Timestamps<'c>) -> Stamps {
+        self.check(timestamps.gpu());
+        let (pool, count) = (timestamps.raw(), timestamps.count());
+        // SAFETY: outside a pass; the pool is this device's and not in use.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_reset_query_pool(self.raw, pool, 0, count)
+        }
+        Stamps {
+            pool,
+            count,
+            written: 0,
+        }
     }
 
-    /// Writes timestamp `number` once all that came before is done.
+    /// Writes the next timestamp once all that came before is done.
     ///
     /// # Panics
-    /// If there are not so many.
-    pub fn timestamp(&self, timestamps: &Timestamps<'g>, number: u32) {
-        assert!(number < timestamps.count());
+    /// If all are written.
+    pub fn stamp(&mut self, stamps: &mut Stamps) {
+        assert!(stamps.written < stamps.count);
         let stage = vk::PipelineStageFlags::BOTTOM_OF_PIPE;
         let device = &self.gpu.device;
-        // SAFETY: the query exists and was reset by the caller's `reset`; it is written once.
-        unsafe { device.cmd_write_timestamp(self.raw, stage, timestamps.raw(), number) }
+        // SAFETY: the query exists, was reset when `stamps` were made, and is written once.
+        unsafe { device.cmd_write_timestamp(self.raw, stage, stamps.pool, stamps.written) }
+        stamps.written += 1;
+    }
+
+    /// Whether this is the card that the commands are for.
+    fn check(&self, gpu: &Gpu) {
+        assert!(std::ptr::eq(self.gpu, gpu), "made on another card");
     }
 }
 
 impl Pass<'_> {
     /// Draws once, with these four floats for the shader: what is added to positions, and what they are
     /// multiplied by.
-    pub fn draw(&self, place: [f32; 4]) {
+    pub fn draw(&mut self, place: [f32; 4]) {
         let mut bytes = [0; 16];
         for (to, from) in bytes.chunks_exact_mut(4).zip(place) {
             to.copy_from_slice(&from.to_ne_bytes());

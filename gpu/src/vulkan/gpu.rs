@@ -172,48 +172,50 @@ impl Gpu {
     ///
     /// # Errors
     /// If the card runs out of memory, stops, or does not finish.
-    pub fn run<'g>(&'g self, record: impl FnOnce(&Commands<'g>)) -> Result<(), GpuError> {
-        let failed = || GpuError::when("recording commands");
+    pub fn run<'c>(&'c self, record: impl FnOnce(&mut Commands<'c>)) -> Result<(), GpuError> {
         let info = vk::CommandBufferAllocateInfo::default()
             .command_pool(self.pool)
             .command_buffer_count(1);
         // SAFETY: the pool is this device's, and nobody else uses it: `Gpu` is not `Sync`.
-        let buffers = unsafe { self.device.allocate_command_buffers(&info) }.map_err(failed())?;
-        let commands = Commands::new(self, buffers[0]);
-        let result = self.run_in(&commands, record);
-        // SAFETY: the commands are done, or were never started; where waiting failed the device is
-        // lost or stuck, and is waited for before it is destroyed.
+        let buffers = unsafe { self.device.allocate_command_buffers(&info) }
+            .map_err(GpuError::when("recording commands"))?;
+        let result = self.run_in(buffers[0], record);
+        // SAFETY: the commands are done, or were never started: `run_in` waits.
         unsafe { self.device.free_command_buffers(self.pool, &buffers) };
         result
     }
 
-    fn run_in<'g>(
-        &'g self,
-        commands: &Commands<'g>,
-        record: impl FnOnce(&Commands<'g>),
+    fn run_in<'c>(
+        &'c self,
+        raw: vk::CommandBuffer,
+        record: impl FnOnce(&mut Commands<'c>),
     ) -> Result<(), GpuError> {
+        // Record.
         let begin = vk::CommandBufferBeginInfo::default()
             .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
         // SAFETY: the command buffer is fresh from its pool.
-        unsafe { self.device.begin_command_buffer(commands.raw, &begin) }
+        unsafe { self.device.begin_command_buffer(raw, &begin) }
             .map_err(GpuError::when("recording commands"))?;
-        record(commands);
-        // SAFETY: it is being recorded; `Commands` leaves no render pass or query open.
-        unsafe { self.device.end_command_buffer(commands.raw) }
+        record(&mut Commands::new(self, raw));
+        // SAFETY: it is being recorded; `Commands` leaves no pass or query open.
+        unsafe { self.device.end_command_buffer(raw) }
             .map_err(GpuError::when("recording commands"))?;
 
+        // Submit.
         // SAFETY: the device is alive.
         let fence = unsafe {
             self.device
                 .create_fence(&vk::FenceCreateInfo::default(), None)
         }
         .map_err(GpuError::when("submitting commands"))?;
-        let buffers = [commands.raw];
+        let buffers = [raw];
         let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
-        // SAFETY: the commands are recorded, all that they name is borrowed until the wait is over,
-        // and the fence is fresh.
+        // SAFETY: the commands are recorded, all that they name is borrowed for `'c`, which outlasts
+        // this call, and the fence is fresh.
         let submitted = unsafe { self.device.queue_submit(self.queue, &submits, fence) }
             .map_err(GpuError::when("submitting commands"));
+
+        // Wait.
         let waited = submitted.and_then(|()| {
             // SAFETY: the fence was submitted.
             unsafe { self.device.wait_for_fences(&[fence], true, LONGEST) }

@@ -14,7 +14,7 @@ mod queries;
 mod target;
 
 pub use buffer::Buffer;
-pub use commands::{Commands, Pass};
+pub use commands::{Commands, Pass, Stamps};
 pub use geometry::Geometry;
 pub use gpu::Gpu;
 pub use instance::{Card, Instance, Kind};

@@ -29,7 +29,7 @@ pub struct Settings {
 
 /// A pipeline that draws into a [`Target`].
 pub struct Pipeline<'g> {
-    gpu: &'g Gpu,
+    pub(super) gpu: &'g Gpu,
     pub(super) layout: Rc<Layout<'g>>,
     pub(super) raw: vk::Pipeline,
     pub(super) settings: Settings,

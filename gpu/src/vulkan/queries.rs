@@ -28,9 +28,9 @@ impl<'g> Pool<'g> {
 
     fn results(&self) -> Result<Vec<u64>, GpuError> {
         let mut results = vec![0_u64; self.count as usize];
-        let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-        // SAFETY: the pool is alive, and `results` has a word for each of its queries. All were ended
-        // or written in a submission that `run` waited for, so this does not wait for ever.
+        // Without waiting: `run` has waited, and what was not written never will be.
+        let flags = vk::QueryResultFlags::TYPE_64;
+        // SAFETY: the pool is alive, and `results` has a word for each of its queries.
         unsafe {
             let device = &self.gpu.device;
             device.get_query_pool_results(self.raw, 0, &mut results, flags)
@@ -69,13 +69,17 @@ impl<'g> Statistics<'g> {
     /// What it counted in the commands that ran.
     ///
     /// # Errors
-    /// If the card was lost.
+    /// If no commands with it ran, or the card was lost.
     pub fn invocations(&self) -> Result<u64, GpuError> {
         Ok(self.0.results()?[0])
     }
 
     pub(super) fn raw(&self) -> vk::QueryPool {
         self.0.raw
+    }
+
+    pub(super) fn gpu(&self) -> &'g Gpu {
+        self.0.gpu
     }
 }
 
@@ -104,7 +108,7 @@ impl<'g> Timestamps<'g> {
     /// and fourth.
     ///
     /// # Errors
-    /// If the card was lost.
+    /// If not all were written, or the card was lost.
     pub fn spans(&self) -> Result<Vec<f64>, GpuError> {
         let ticks = self.0.results()?;
         let span = |pair: &[u64]| self.0.gpu.nanoseconds(pair[0], pair[1]);
@@ -113,6 +117,10 @@ impl<'g> Timestamps<'g> {
 
     pub(super) fn raw(&self) -> vk::QueryPool {
         self.0.raw
+    }
+
+    pub(super) fn gpu(&self) -> &'g Gpu {
+        self.0.gpu
     }
 
     /// How many there are.

@@ -12,7 +12,7 @@ use crate::error::GpuError;
 /// A pass waits for everything before it, and everything after it waits for the pass: what is timed
 /// overlaps with nothing.
 pub struct Target<'g> {
-    gpu: &'g Gpu,
+    pub(super) gpu: &'g Gpu,
     image: vk::Image,
     memory: vk::DeviceMemory,
     view: vk::ImageView,
