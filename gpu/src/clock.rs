@@ -9,7 +9,7 @@ use crate::workload::Workload;
 /// Faces of a batch.
 pub(crate) const FACES: u32 = 32;
 /// Batches of a draw: 131,072 faces.
-const BATCHES: u32 = 4096;
+pub(crate) const BATCHES: u32 = 4096;
 /// Vertices of a draw: one block, so that nothing is forgotten where numbers come round.
 const VERTICES: u32 = 1 << 16;
 /// Cycles of a batch of one face drawn 32 times.
@@ -58,14 +58,17 @@ impl<'r, 'g> Clock<'r, 'g> {
 
 /// The draw that repeats a batch.
 fn upload<'g>(renderer: &Renderer<'g>, batch: &[u32]) -> Result<Geometry<'g>, GpuError> {
-    let step = batch.iter().max().map_or(1, |most| most + 1);
-    let starts = (0..BATCHES).map(|number| number * step % (VERTICES - step));
-    let indices: Vec<u32> = starts
-        .flat_map(|start| batch.iter().map(move |index| start + index))
-        .collect();
     let positions = vec![[0.0; 3]; VERTICES as usize];
     renderer.upload(&Draw {
         positions: Some(&positions),
-        ..Draw::list(&indices)
+        ..Draw::list(&repeated(batch))
     })
+}
+
+/// The indices of a batch, again and again with other vertices.
+pub(crate) fn repeated(batch: &[u32]) -> Vec<u32> {
+    let step = batch.iter().max().map_or(1, |most| most + 1);
+    let starts = (0..BATCHES).map(|number| number * step % (VERTICES - step));
+    let indices = starts.flat_map(|start| batch.iter().map(move |index| start + index));
+    indices.collect()
 }

@@ -2,7 +2,7 @@
 //! how long it takes with what the models of meshweft say.
 //!
 //! [`vulkan`] is all that talks to the card, and all that is unsafe. [`renderer`] counts, logs and times
-//! one draw. [`predict`], [`bench`], [`probe`] and [`paper`] are the jobs of the program `meshweft-gpu`.
+//! one draw. [`predict`], [`mod@bench`], [`probe`] and [`paper`] are the jobs of the program `meshweft-gpu`.
 
 #![deny(unsafe_code)]
 

@@ -85,8 +85,8 @@ struct Drawn {
     #[command(flatten)]
     files: Files,
     /// Orders, with commas between them: file, random, meshopt, meshopt-strip, meshopt-fifo:K,
-    /// recursive-cut, linear-arrangement, or a target with its effort (universal, nvidia-best, fifo:16).
-    /// The first is what times are relative to
+    /// recursive-cut, linear-arrangement, or a target with its effort (universal, nvidia-best, fifo:16);
+    /// +in-batches after any of them moves faces inside the batches of an NVIDIA card. The first is what times are relative to
     #[arg(long, value_delimiter = ',')]
     orders: Vec<Order>,
 }
@@ -103,6 +103,27 @@ impl Drawn {
     }
 }
 
+const PREDICT_ORDERS: &[&str] = &[
+    "file",
+    "meshopt",
+    "universal",
+    "nvidia",
+    "fifo:16",
+    "random",
+];
+/// The first is what the others are relative to.
+const BENCH_ORDERS: &[&str] = &[
+    "meshopt",
+    "meshopt+in-batches",
+    "universal",
+    "universal-best",
+    "nvidia",
+    "nvidia-best",
+    "fifo:16",
+    "file",
+    "random",
+];
+
 fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(code) => code,
@@ -114,39 +135,39 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<ExitCode, GpuError> {
+    // Which card, and what to do there.
     let number = match arguments.card.as_deref() {
+        None => None,
         Some("list") => {
             for (number, card) in Instance::new()?.cards()?.iter().enumerate() {
                 println!("{number}: {card}");
             }
             return Ok(ExitCode::SUCCESS);
         }
-        Some(number) => Some(number.parse().map_err(|_| {
-            GpuError::Input(format!("--card {number}: a number or `list` is asked for"))
+        Some(text) => Some(text.parse().map_err(|_| {
+            GpuError::Input(format!("--card {text}: a number or `list` is asked for"))
         })?),
-        None => None,
     };
     let Some(verb) = &arguments.verb else {
         return Err(GpuError::Input(
             "nothing to do: predict, bench, probe, paper; --help explains".to_owned(),
         ));
     };
-    // Before anything takes time.
-    let json = match &arguments.json {
-        Some(file) => Some((
-            file,
-            File::create(file).map_err(|error| cannot_write(file, &error))?,
-        )),
-        None => None,
-    };
+
+    // The file for the figures, before anything takes time.
+    let json = arguments.json.as_deref();
+    let file = json.map(|json| File::create(json).map_err(|error| cannot_write(json, &error)));
+    let file = file.transpose()?;
+
+    // The job.
     let gpu = Gpu::open(number)?;
     let renderer = Renderer::new(&gpu)?;
     let card = gpu.card();
     println!("card: {card}");
     let (code, figures) = act(&renderer, verb)?;
-    if let Some((file, mut written)) = json {
+    if let Some((json, mut file)) = json.zip(file) {
         let all = json!({"card": card.name, "driver": card.driver, "figures": figures});
-        writeln!(written, "{all:#}").map_err(|error| cannot_write(file, &error))?;
+        writeln!(file, "{all:#}").map_err(|error| cannot_write(json, &error))?;
     }
     Ok(code)
 }
@@ -156,47 +177,31 @@ fn cannot_write(file: &Path, error: &io::Error) -> GpuError {
 }
 
 fn act(renderer: &Renderer<'_>, verb: &Verb) -> Result<(ExitCode, Value), GpuError> {
-    match verb {
-        Verb::Predict(drawn) => {
-            let (model, is_the_cards) = Model::of(renderer.gpu().card());
-            match is_the_cards {
-                true => println!("model: {model}"),
-                false => println!("model: {model}, to compare with: none is known for this card"),
-            }
-            let meshes = drawn.files.meshes()?;
-            let orders = drawn.orders_or(&[
-                "file",
-                "meshopt",
-                "universal",
-                "nvidia",
-                "fifo:16",
-                "random",
-            ]);
-            let (outcome, figures) = predict::run(renderer, &meshes, &orders)?;
-            println!(
-                "{} draws: {} that the model does not say, {} that the card's statistics do not",
-                outcome.draws, outcome.unpredicted, outcome.disputed
-            );
-            let is_wrong = outcome.disputed > 0 || (is_the_cards && outcome.unpredicted > 0);
-            Ok((ExitCode::from(u8::from(is_wrong)), figures))
-        }
-        Verb::Probe => Ok((ExitCode::SUCCESS, probe::run(renderer)?)),
-        Verb::Paper(files) => Ok((ExitCode::SUCCESS, paper::run(renderer, &files.meshes()?)?)),
+    let figures = match verb {
+        Verb::Predict(drawn) => return predict(renderer, drawn),
         Verb::Bench(drawn) => {
-            let meshes = drawn.files.meshes()?;
-            let orders = drawn.orders_or(&[
-                "meshopt",
-                "meshopt-strip",
-                "universal",
-                "universal-best",
-                "nvidia",
-                "nvidia-best",
-                "fifo:16",
-                "file",
-                "random",
-            ]);
-            let figures = bench::run(renderer, &meshes, &orders)?;
-            Ok((ExitCode::SUCCESS, figures))
+            let orders = drawn.orders_or(BENCH_ORDERS);
+            bench::run(renderer, &drawn.files.meshes()?, &orders)?
         }
+        Verb::Paper(files) => paper::run(renderer, &files.meshes()?)?,
+        Verb::Probe => probe::run(renderer)?,
+    };
+    Ok((ExitCode::SUCCESS, figures))
+}
+
+/// Fails where counts differ from each other, or from the model if it is that of the card.
+fn predict(renderer: &Renderer<'_>, drawn: &Drawn) -> Result<(ExitCode, Value), GpuError> {
+    let (model, is_the_cards) = Model::of(renderer.gpu().card());
+    match is_the_cards {
+        true => println!("model: {model}"),
+        false => println!("model: {model}, to compare with: none is known for this card"),
     }
+    let orders = drawn.orders_or(PREDICT_ORDERS);
+    let (outcome, figures) = predict::run(renderer, &drawn.files.meshes()?, &orders)?;
+    println!(
+        "{} draws: {} that the model does not say, {} that the card's statistics do not",
+        outcome.draws, outcome.unpredicted, outcome.disputed
+    );
+    let is_wrong = outcome.disputed > 0 || (is_the_cards && outcome.unpredicted > 0);
+    Ok((ExitCode::from(u8::from(is_wrong)), figures))
 }

@@ -4,17 +4,27 @@ use std::fmt;
 use std::str::FromStr;
 
 use meshweft::order::bogomjakov_gotsman::{LinearArrangement, RecursiveCut};
-use meshweft::order::{Effort, Optimizer, Target, vertex_fetch};
-use meshweft::{Mesh, Permutation};
+use meshweft::order::{Effort, InBatches, Optimizer, Target, vertex_fetch};
+use meshweft::{FaceOrder, Mesh, Permutation};
 
-/// A way to order the faces of a mesh. All but [`File`](Self::File) number the vertices by first use.
+/// A way to order the faces of a mesh. All but [`File`](Sequence::File) number the vertices by first use.
 ///
 /// Written and read as `file`, `random`, `meshopt`, `meshopt-strip`, `meshopt-fifo:16`,
 /// `recursive-cut`, `linear-arrangement`, or a target of meshweft: `universal`, `nvidia`, `fifo:16`, with
-/// `-best` or `-max` after it for a longer search.
+/// `-best` or `-max` after it for a longer search. `+in-batches` after any of them moves faces inside the
+/// batches of an NVIDIA card.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Order {
+    /// What orders the faces.
+    pub sequence: Sequence,
+    /// Whether faces move inside batches after that.
+    pub in_batches: bool,
+}
+
+/// What orders the faces of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Order {
+pub enum Sequence {
     /// As the file has it, vertices too.
     File,
     /// Random faces.
@@ -37,29 +47,44 @@ impl Order {
     /// The mesh in this order.
     #[must_use]
     pub fn applied(&self, mesh: &Mesh) -> Mesh {
+        let ordered = self.sequence.applied(mesh);
+        if !self.in_batches {
+            return ordered;
+        }
+        // Where vertices are numbered by first use, few batches run across a border between blocks.
+        let as_it_is = FaceOrder::identity(ordered.face_count());
+        let order = InBatches::default().follow(&ordered, &as_it_is);
+        numbered(&ordered.with_face_order(&order))
+    }
+}
+
+/// The mesh with its vertices by first use.
+fn numbered(mesh: &Mesh) -> Mesh {
+    mesh.with_vertex_order(&vertex_fetch(mesh))
+}
+
+impl Sequence {
+    /// The mesh in this order.
+    #[must_use]
+    pub fn applied(&self, mesh: &Mesh) -> Mesh {
         if *self == Self::File || mesh.face_count() == 0 {
             return mesh.clone();
         }
-        let ordered = match *self {
-            Self::Random => {
-                let order = Permutation::random(mesh.face_count(), 7);
-                mesh.with_face_order(&order.into())
-            }
-            Self::RecursiveCut => mesh.with_face_order(&RecursiveCut::default().face_order(mesh)),
-            Self::LinearArrangement => {
-                mesh.with_face_order(&LinearArrangement::default().face_order(mesh))
-            }
+        let order = match *self {
+            Self::Random => Permutation::random(mesh.face_count(), 7).into(),
+            Self::RecursiveCut => RecursiveCut::default().face_order(mesh),
+            Self::LinearArrangement => LinearArrangement::default().face_order(mesh),
             Self::Optimized(target, effort) => {
                 let optimizer = Optimizer {
                     target,
                     effort,
                     ..Optimizer::default()
                 };
-                mesh.with_face_order(&optimizer.face_order(mesh))
+                optimizer.face_order(mesh)
             }
-            _ => self.by_meshopt(mesh),
+            _ => return numbered(&self.by_meshopt(mesh)),
         };
-        ordered.with_vertex_order(&vertex_fetch(&ordered))
+        numbered(&mesh.with_face_order(&order))
     }
 
     fn by_meshopt(self, mesh: &Mesh) -> Mesh {
@@ -78,24 +103,34 @@ impl Order {
 /// its strip order is for.
 #[must_use]
 pub fn strips(mesh: &Mesh) -> Vec<u32> {
-    let ordered = Order::MeshoptStrip.by_meshopt(mesh);
+    let ordered = Sequence::MeshoptStrip.by_meshopt(mesh);
     let indices = ordered.faces().as_flattened();
     meshopt::stripify(indices, mesh.vertex_count(), crate::draw::RESTART)
         .expect("indices of a mesh are in range")
 }
 
+/// What follows the name of an order whose faces are moved inside batches.
+const IN_BATCHES: &str = "+in-batches";
+
 impl fmt::Display for Order {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let more = if self.in_batches { IN_BATCHES } else { "" };
+        f.pad(&format!("{}{more}", self.sequence))
+    }
+}
+
+impl fmt::Display for Sequence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::File => f.pad("file"),
-            Self::Random => f.pad("random"),
-            Self::Meshopt => f.pad("meshopt"),
-            Self::MeshoptStrip => f.pad("meshopt-strip"),
-            Self::MeshoptFifo(size) => f.pad(&format!("meshopt-fifo:{size}")),
-            Self::RecursiveCut => f.pad("recursive-cut"),
-            Self::LinearArrangement => f.pad("linear-arrangement"),
-            Self::Optimized(target, Effort::Fast) => f.pad(&target.to_string()),
-            Self::Optimized(target, effort) => f.pad(&format!("{target}-{effort}")),
+            Self::File => f.write_str("file"),
+            Self::Random => f.write_str("random"),
+            Self::Meshopt => f.write_str("meshopt"),
+            Self::MeshoptStrip => f.write_str("meshopt-strip"),
+            Self::MeshoptFifo(size) => write!(f, "meshopt-fifo:{size}"),
+            Self::RecursiveCut => f.write_str("recursive-cut"),
+            Self::LinearArrangement => f.write_str("linear-arrangement"),
+            Self::Optimized(target, Effort::Fast) => write!(f, "{target}"),
+            Self::Optimized(target, effort) => write!(f, "{target}-{effort}"),
         }
     }
 }
@@ -104,37 +139,53 @@ impl FromStr for Order {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let order = match text {
-            "file" => Self::File,
-            "random" => Self::Random,
-            "meshopt" => Self::Meshopt,
-            "meshopt-strip" => Self::MeshoptStrip,
-            "recursive-cut" => Self::RecursiveCut,
-            "linear-arrangement" => Self::LinearArrangement,
-            _ => {
-                if let Some(size) = text.strip_prefix("meshopt-fifo:") {
-                    let size: u32 = size.parse().map_err(|_| format!("{size:?} is no size"))?;
-                    return match size {
-                        3..=1024 => Ok(Self::MeshoptFifo(size)),
-                        _ => Err(format!("meshopt-fifo:{size}: a size is from 3 to 1024")),
-                    };
-                }
-                let (target, effort) = match text.rsplit_once('-') {
-                    Some((target, "best")) => (target, Effort::Best),
-                    Some((target, "max")) => (target, Effort::Max),
-                    _ => (text, Effort::Fast),
-                };
-                let target = target.parse().map_err(|error| {
-                    format!(
-                        "{error}; other orders are file, random, meshopt, meshopt-strip, \
-                         meshopt-fifo:K, recursive-cut, linear-arrangement"
-                    )
-                })?;
-                Self::Optimized(target, effort)
-            }
-        };
-        Ok(order)
+        let sequence = text.strip_suffix(IN_BATCHES);
+        Ok(Self {
+            sequence: sequence.unwrap_or(text).parse()?,
+            in_batches: sequence.is_some(),
+        })
     }
+}
+
+impl FromStr for Sequence {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "file" => Ok(Self::File),
+            "random" => Ok(Self::Random),
+            "meshopt" => Ok(Self::Meshopt),
+            "meshopt-strip" => Ok(Self::MeshoptStrip),
+            "recursive-cut" => Ok(Self::RecursiveCut),
+            "linear-arrangement" => Ok(Self::LinearArrangement),
+            _ => match text.strip_prefix("meshopt-fifo:") {
+                Some(size) => meshopt_fifo(size),
+                None => optimized(text),
+            },
+        }
+    }
+}
+
+fn meshopt_fifo(size: &str) -> Result<Sequence, String> {
+    match size.parse() {
+        Ok(size @ 3..=1024) => Ok(Sequence::MeshoptFifo(size)),
+        _ => Err(format!("meshopt-fifo:{size}: a size is from 3 to 1024")),
+    }
+}
+
+fn optimized(text: &str) -> Result<Sequence, String> {
+    let (target, effort) = match text.rsplit_once('-') {
+        Some((target, "best")) => (target, Effort::Best),
+        Some((target, "max")) => (target, Effort::Max),
+        _ => (text, Effort::Fast),
+    };
+    let target = target.parse().map_err(|error| {
+        format!(
+            "{error}; other orders are file, random, meshopt, meshopt-strip, meshopt-fifo:K, \
+             recursive-cut, linear-arrangement"
+        )
+    })?;
+    Ok(Sequence::Optimized(target, effort))
 }
 
 #[cfg(test)]
@@ -154,7 +205,10 @@ mod tests {
             "universal",
             "universal-best",
             "nvidia-max",
+            "meshopt-nvidia",
             "fifo:16",
+            "meshopt+in-batches",
+            "universal-best+in-batches",
         ];
         for name in names {
             assert_eq!(name.parse::<Order>().unwrap().to_string(), name);
@@ -180,6 +234,7 @@ mod tests {
             "meshopt-strip",
             "universal",
             "fifo:16",
+            "meshopt+in-batches",
         ] {
             let ordered = name.parse::<Order>().unwrap().applied(&mesh);
             assert_eq!(ordered.face_count(), mesh.face_count(), "{name}");

@@ -1,11 +1,13 @@
 //! Counts on the card against its model.
 
+use std::fmt;
+
 use serde_json::{Value, json};
 
 use crate::draw::Draw;
 use crate::error::GpuError;
 use crate::meshes::NamedMesh;
-use crate::model::Model;
+use crate::model::{Model, Prediction};
 use crate::orders::Order;
 use crate::renderer::{Counts, Renderer};
 
@@ -31,35 +33,39 @@ pub fn run(
 ) -> Result<(Outcome, Value), GpuError> {
     let (model, _) = Model::of(renderer.gpu().card());
     println!(
-        "{:<24} {:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8}",
+        "{:<24} {:<20} {:>9} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8} {:>10}",
         "mesh",
         "order",
         "faces",
         "statistics",
         "counter",
-        model_column(model),
+        "model",
         "difference",
         "warps",
         "model",
-        "differ."
+        "difference"
     );
     let (mut outcome, mut rows) = (Outcome::default(), Vec::new());
     for NamedMesh { name, mesh } in meshes {
         for order in orders {
             let ordered = order.applied(mesh);
             let draw = Draw::list(ordered.faces().as_flattened());
-            let counts = renderer.count(&renderer.upload(&draw)?)?;
-            let row = row(model, &draw, &counts, &mut outcome);
-            println!(
-                "{name:<24} {order:<16} {:>9} {}",
-                mesh.face_count(),
-                row.text
-            );
-            let mut json = row.json;
-            json["mesh"] = json!(name);
-            json["order"] = json!(order.to_string());
-            json["faces"] = json!(mesh.face_count());
-            rows.push(json);
+            let row = Row {
+                counts: renderer.count(&renderer.upload(&draw)?)?,
+                prediction: model.predict(&draw),
+            };
+            outcome.add(&row);
+            println!("{name:<24} {order:<20} {:>9} {row}", mesh.face_count());
+            rows.push(json!({
+                "mesh": name,
+                "order": order.to_string(),
+                "faces": mesh.face_count(),
+                "statistics": row.counts.statistics,
+                "counter": row.counts.invocations,
+                "warps": row.counts.warps,
+                "predicted_invocations": row.prediction.map(|p| p.invocations),
+                "predicted_warps": row.prediction.and_then(|p| p.warps),
+            }));
         }
     }
     Ok((outcome, Value::Array(rows)))
@@ -68,55 +74,93 @@ pub fn run(
 /// A draw's counts beside the model's.
 #[derive(Debug)]
 struct Row {
-    text: String,
-    json: Value,
+    counts: Counts,
+    prediction: Option<Prediction>,
 }
 
-fn row(model: Model, draw: &Draw<'_>, counts: &Counts, outcome: &mut Outcome) -> Row {
-    let prediction = model.predict(draw);
-    let invocations = prediction.map(|p| p.invocations);
-    // Only where both the model and the shader know warps.
-    let warps = prediction
-        .and_then(|p| p.warps)
-        .filter(|_| counts.warps.is_some());
-    let difference = |counted: u64, predicted: Option<u64>| {
-        predicted.map(|predicted| i128::from(counted) - i128::from(predicted))
-    };
-    let off = difference(counts.invocations, invocations);
-    let warps_off = counts.warps.and_then(|counted| difference(counted, warps));
+impl Row {
+    /// Invocations counted beyond those predicted.
+    fn difference(&self) -> Option<i128> {
+        let predicted = self.prediction?.invocations;
+        Some(i128::from(self.counts.invocations) - i128::from(predicted))
+    }
 
-    outcome.draws += 1;
-    let is_disputed = counts.statistics.is_some_and(|s| s != counts.invocations);
-    outcome.disputed += usize::from(is_disputed);
-    let is_off = off.is_some_and(|off| off != 0) || warps_off.is_some_and(|off| off != 0);
-    outcome.unpredicted += usize::from(is_off);
+    /// The warps that are predicted, where shaders can count them.
+    fn warps(&self) -> Option<u64> {
+        self.counts.warps.and(self.prediction?.warps)
+    }
 
-    let cell = |value: Option<u64>| value.map_or_else(|| "-".to_owned(), |v| v.to_string());
-    let signed = |value: Option<i128>| value.map_or_else(|| "-".to_owned(), |v| v.to_string());
-    Row {
-        text: format!(
-            "{:>10} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8}",
-            cell(counts.statistics),
-            counts.invocations,
-            cell(invocations),
-            signed(off),
-            cell(counts.warps),
-            cell(warps),
-            signed(warps_off),
-        ),
-        json: json!({
-            "statistics": counts.statistics,
-            "counter": counts.invocations,
-            "warps": counts.warps,
-            "predicted_invocations": invocations,
-            "predicted_warps": prediction.and_then(|p| p.warps),
-        }),
+    fn warps_difference(&self) -> Option<i128> {
+        Some(i128::from(self.counts.warps?) - i128::from(self.warps()?))
     }
 }
 
-fn model_column(model: Model) -> &'static str {
-    match model {
-        Model::Nvidia => "NVIDIA",
-        Model::Lavapipe => "lavapipe",
+impl Outcome {
+    fn add(&mut self, row: &Row) {
+        let differences = [row.difference(), row.warps_difference()];
+        let is_off = differences
+            .into_iter()
+            .flatten()
+            .any(|difference| difference != 0);
+        let statistics = row.counts.statistics;
+        let is_disputed = statistics.is_some_and(|counted| counted != row.counts.invocations);
+        self.draws += 1;
+        self.unpredicted += usize::from(is_off);
+        self.disputed += usize::from(is_disputed);
+    }
+}
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fn text(value: Option<impl ToString>) -> String {
+            value.map_or_else(|| "-".to_owned(), |value| value.to_string())
+        }
+        write!(
+            f,
+            "{:>10} {:>10} {:>10} {:>10} {:>8} {:>8} {:>10}",
+            text(self.counts.statistics),
+            self.counts.invocations,
+            text(self.prediction.map(|p| p.invocations)),
+            text(self.difference()),
+            text(self.counts.warps),
+            text(self.warps()),
+            text(self.warps_difference()),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_differs_is_counted() {
+        let row = |statistics, warps| Row {
+            counts: Counts {
+                statistics,
+                invocations: 10,
+                warps,
+            },
+            prediction: Some(Prediction {
+                invocations: 10,
+                warps: Some(2),
+                distinct_vertices: None,
+                cycles: None,
+            }),
+        };
+        let mut outcome = Outcome::default();
+        for row in [
+            row(None, None),
+            row(Some(10), Some(2)),
+            row(Some(11), Some(3)),
+        ] {
+            outcome.add(&row);
+        }
+        let expected = Outcome {
+            draws: 3,
+            unpredicted: 1,
+            disputed: 1,
+        };
+        assert_eq!(outcome, expected);
     }
 }

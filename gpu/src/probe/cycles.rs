@@ -22,6 +22,18 @@ struct Template {
     indices: Vec<u32>,
 }
 
+impl Template {
+    /// What the model says of it, if it is one batch of few lanes.
+    fn cycles(&self) -> Option<u64> {
+        let batches = BatchRule::NVIDIA.batches(&Draw::list(&self.indices));
+        let [batch] = batches.as_slice() else {
+            return None;
+        };
+        let is_narrow = batch.vertices.len() <= MOST_LANES as usize;
+        is_narrow.then(|| setup::cycles(&batch.faces))
+    }
+}
+
 /// Times all templates relative to one face drawn 32 times, which the model says takes 35 cycles, and
 /// prints those that take something else than the model says. Nothing where times say nothing.
 pub(super) fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
@@ -29,17 +41,13 @@ pub(super) fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
         println!("setup cycles: not timed, as a program draws here and not a card");
         return Ok(Value::Null);
     }
+
     let clock = Clock::new(renderer)?;
     let (mut worst, mut off, mut rows) = (0.0_f64, 0, Vec::new());
     for template in templates() {
-        let batches = BatchRule::NVIDIA.batches(&Draw::list(&template.indices));
-        let [batch] = batches.as_slice() else {
+        let Some(model) = template.cycles() else {
             continue;
         };
-        if batch.vertices.len() > MOST_LANES as usize {
-            continue;
-        }
-        let model = setup::cycles(&batch.faces);
         let cycles = clock.cycles(&template.indices)?;
         let difference = cycles - model as f64;
         worst = worst.max(difference.abs());
@@ -49,6 +57,7 @@ pub(super) fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
         }
         rows.push(json!({"name": template.name, "cycles": cycles, "model": model}));
     }
+
     println!(
         "setup cycles: {} batches timed, {off} more than {TOLERANCE} off the model, at most {worst:.2}; a \
          cycle takes {:.4} ns",
@@ -97,4 +106,34 @@ fn templates() -> Vec<Template> {
         }
     }
     templates
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clock::{BATCHES, repeated};
+    use crate::model::Model;
+
+    #[test]
+    fn a_template_is_a_batch_each_time_it_is_drawn() {
+        let (mut narrow, mut cycles) = (0, Vec::new());
+        for template in templates() {
+            let Some(model) = template.cycles() else {
+                continue;
+            };
+            let drawn = repeated(&template.indices);
+            let prediction = Model::Nvidia.predict(&Draw::list(&drawn)).unwrap();
+            assert_eq!(prediction.warps, Some(BATCHES.into()), "{}", template.name);
+            let all = model * u64::from(BATCHES);
+            assert_eq!(prediction.cycles, Some(all), "{}", template.name);
+            narrow += 1;
+            cycles.push(model);
+        }
+        // Enough of them, and from the least to the most that a batch takes.
+        assert!(narrow > 100, "{narrow}");
+        assert_eq!(
+            (cycles.iter().min(), cycles.iter().max()),
+            (Some(&35), Some(&97))
+        );
+    }
 }

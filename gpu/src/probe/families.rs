@@ -109,6 +109,7 @@ fn strips_and_fans(probes: &mut Vec<Probe>) {
             });
         }
     }
+
     // Strips that are cut, some too short for a face.
     for piece in 1..=40_u32 {
         let mut indices = Vec::new();
@@ -184,6 +185,7 @@ fn degenerate(probes: &mut Vec<Probe>) {
 
 /// Large vertex numbers, and where the high bits change.
 fn numbers(probes: &mut Vec<Probe>) {
+    // A window across a border, and two windows.
     for bits in 8..=24 {
         for seed in 20..24 {
             let start = (1 << bits) - 50;
@@ -206,10 +208,13 @@ fn numbers(probes: &mut Vec<Probe>) {
             indices,
         ));
     }
+
+    // Bits that are not used.
     for shift in 0..=22 {
         let indices = window(150, 16, 2, 40).iter().map(|i| i << shift).collect();
         probes.push(Probe::new(format!("times 2^{shift}"), indices));
     }
+
     // Random numbers that come back.
     for bits in [16, 20, 24, 31] {
         for seed in 50..54 {
@@ -229,6 +234,7 @@ fn numbers(probes: &mut Vec<Probe>) {
 
 /// Index width, vertex offset, instances.
 fn draws(probes: &mut Vec<Probe>) {
+    // Offsets of few and of many vertices.
     for (number, offset) in [
         1,
         1000,
@@ -255,6 +261,8 @@ fn draws(probes: &mut Vec<Probe>) {
             });
         }
     }
+
+    // Offsets that add up to a border, or lead away from it.
     let indices: Vec<u32> = window(150, 20, 2, 70).iter().map(|i| i + 65_400).collect();
     for offset in [-65_400, -1000, -64, 0, 64] {
         probes.push(Probe {
@@ -262,6 +270,8 @@ fn draws(probes: &mut Vec<Probe>) {
             ..Probe::new(format!("near 65,536, offset {offset}"), indices.clone())
         });
     }
+
+    // Instances, whose last batch another one may go on with.
     for instances in [2, 3, 5, 8, 33] {
         for faces in [1, 5, 10, 11, 32, 33, 50] {
             probes.push(Probe {

@@ -55,6 +55,8 @@ pub(super) struct Fit {
 /// Fits one number after the other, from the NVIDIA rule on, until none gets better.
 pub(super) fn fit(observed: &[Observed]) -> Fit {
     let unexplained = |rule: &BatchRule| observed.par_iter().filter(|o| !o.fits(rule)).count();
+
+    // Down from what is known.
     let mut rule = BatchRule::NVIDIA;
     let mut least = unexplained(&rule);
     loop {
@@ -76,6 +78,8 @@ pub(super) fn fit(observed: &[Observed]) -> Fit {
             break;
         }
     }
+
+    // How sharp that is.
     let beside = NUMBERS.map(|number| {
         let value = *(number.of)(&mut rule.clone());
         [value.checked_sub(1), value.checked_add(1)].map(|value| {

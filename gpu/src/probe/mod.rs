@@ -1,7 +1,7 @@
 //! Finds out how a card collects vertices: draws that differ in one thing each, every invocation written
 //! down, and the rule's numbers fitted anew.
 //!
-//! [`families`] has the draws, [`fit`] the search for the numbers, [`cycles`] what faces cost.
+//! `families` has the draws, `fit` the search for the numbers, `cycles` what faces cost.
 
 mod cycles;
 mod families;
@@ -33,6 +33,7 @@ struct Observed {
 /// # Errors
 /// If the card fails.
 pub fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
+    // Draw.
     let mut observed = Vec::new();
     let largest = renderer.gpu().largest_index();
     for probe in families::all(largest) {
@@ -45,9 +46,13 @@ pub fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
             groups,
         });
     }
+
+    // Compare with the models.
     println!("{} probes drawn", observed.len());
     differences(Model::of(renderer.gpu().card()).0, &observed);
     let contents = contents(&observed);
+
+    // Fit the rule anew.
     let fitted = match Model::of(renderer.gpu().card()) {
         (Model::Lavapipe, true) => {
             println!("batches, fitted: not tried, as this renderer has none");
@@ -59,6 +64,7 @@ pub fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
             fit.json()
         }
     };
+
     Ok(json!({
         "same_contents": contents,
         "fitted": fitted,

@@ -101,7 +101,7 @@ impl<'g> Buffer<'g> {
             words,
         };
 
-        // From here on what fails is freed by `drop`.
+        // Its memory. From here on what fails is freed by `drop`.
         // SAFETY: the buffer is alive.
         let needs = unsafe { gpu.device.get_buffer_memory_requirements(raw) };
         let is_right = |&kind: &u32| {

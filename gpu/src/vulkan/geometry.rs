@@ -29,6 +29,7 @@ impl<'g> Geometry<'g> {
     /// If an index is past what the card draws or past the last position, if it draws too much at
     /// once, or if the card has too little memory.
     pub fn new(gpu: &'g Gpu, draw: &Draw<'_>) -> Result<Self, GpuError> {
+        // Whether it can be drawn.
         let corners = draw.indices.len() as u64 * u64::from(draw.instances);
         if corners > MOST_CORNERS {
             return Err(GpuError::input(format!(
@@ -38,6 +39,7 @@ impl<'g> Geometry<'g> {
         let count = u32::try_from(draw.indices.len()).expect("checked just now");
         check(gpu, draw)?;
 
+        // On the card.
         let indices = match draw.short {
             false => Buffer::of(gpu, draw.indices)?,
             true => Buffer::of(gpu, &pairs(draw.indices))?,

@@ -99,6 +99,8 @@ impl Instance {
         if version < vk::API_VERSION_1_1 {
             return None;
         }
+
+        // What it says of itself.
         let mut subgroups = vk::PhysicalDeviceSubgroupProperties::default();
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut subgroups);
@@ -108,6 +110,7 @@ impl Instance {
         // SAFETY: as above; the card's version knows each structure of the chain.
         unsafe { self.raw.get_physical_device_properties2(physical, &mut all) };
 
+        // As much of that as counts.
         let base = all.properties;
         let kind = match base.device_type {
             vk::PhysicalDeviceType::DISCRETE_GPU => Kind::Discrete,

@@ -86,6 +86,8 @@ impl<'g> Layout<'g> {
 
     fn add_set(&mut self) -> Result<(), vk::Result> {
         let device = &self.gpu.device;
+
+        // A set.
         let sizes = [vk::DescriptorPoolSize::default()
             .ty(vk::DescriptorType::STORAGE_BUFFER)
             .descriptor_count(3)];
@@ -101,6 +103,7 @@ impl<'g> Layout<'g> {
         // SAFETY: the pool has room for one set of this layout.
         self.set = unsafe { device.allocate_descriptor_sets(&info) }?[0];
 
+        // Each buffer in its place.
         let whole = self.buffers.each_ref().map(|buffer| {
             [vk::DescriptorBufferInfo::default()
                 .buffer(buffer.raw)

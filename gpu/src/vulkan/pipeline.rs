@@ -46,6 +46,7 @@ impl<'g> Pipeline<'g> {
         target: &Target<'g>,
         settings: &Settings,
     ) -> Result<Self, GpuError> {
+        // Shaders.
         let vertex = Shader::new(gpu, settings.vertex)?;
         let fragment = settings
             .fragment
@@ -96,6 +97,7 @@ impl<'g> Pipeline<'g> {
             .color_write_mask(vk::ColorComponentFlags::RGBA)];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&colours);
 
+        // All together.
         let infos = [vk::GraphicsPipelineCreateInfo::default()
             .stages(&stages)
             .vertex_input_state(&input)

@@ -58,6 +58,8 @@ impl<'g> Target<'g> {
 
     fn add_image(&mut self) -> Result<(), vk::Result> {
         let device = &self.gpu.device;
+
+        // The image.
         let extent = vk::Extent3D {
             width: Self::SIDE,
             height: Self::SIDE,
@@ -94,6 +96,7 @@ impl<'g> Target<'g> {
         // SAFETY: both are fresh, and the memory has the type and the size that the image needs.
         unsafe { device.bind_image_memory(self.image, self.memory, 0) }?;
 
+        // All of it.
         let whole = vk::ImageSubresourceRange::default()
             .aspect_mask(vk::ImageAspectFlags::COLOR)
             .level_count(1)
@@ -109,6 +112,7 @@ impl<'g> Target<'g> {
     }
 
     fn add_pass(&mut self) -> Result<(), vk::Result> {
+        // One picture, whose old pixels do not matter.
         let attachments = [vk::AttachmentDescription::default()
             .format(Self::FORMAT)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -124,6 +128,8 @@ impl<'g> Target<'g> {
         let subpasses = [vk::SubpassDescription::default()
             .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
             .color_attachments(&colours)];
+
+        // After everything before it, before everything after it.
         let all = vk::PipelineStageFlags::ALL_COMMANDS;
         let inside = vk::PipelineStageFlags::ALL_GRAPHICS;
         let memory = vk::AccessFlags::MEMORY_READ | vk::AccessFlags::MEMORY_WRITE;
@@ -140,6 +146,7 @@ impl<'g> Target<'g> {
             wait(vk::SUBPASS_EXTERNAL, 0, all, inside),
             wait(0, vk::SUBPASS_EXTERNAL, inside, all),
         ];
+
         let info = vk::RenderPassCreateInfo::default()
             .attachments(&attachments)
             .subpasses(&subpasses)
