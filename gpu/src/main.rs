@@ -60,7 +60,7 @@ impl Files {
                 Ok(meshes) if meshes.is_empty() => skipped += 1,
                 Ok(meshes) => read.extend(meshes),
                 Err(error) if self.skip_unreadable => {
-                    eprintln!("left out: {error}");
+                    eprintln!("not read: {error}");
                     skipped += 1;
                 }
                 Err(error) => return Err(error),
