@@ -37,9 +37,7 @@ impl<'r, 'g> Clock<'r, 'g> {
 
     /// Nanoseconds of a cycle, if the card sets up faces as NVIDIA cards do.
     pub(crate) fn cycle(&self) -> Result<f64, GpuError> {
-        let ns = self
-            .renderer
-            .time(&self.unit, Workload::Triangles, SAMPLING)?;
+        let ns = self.renderer.time(&self.unit, Workload::Setup, SAMPLING)?;
         Ok(ns / f64::from(BATCHES) / CYCLES)
     }
 
@@ -48,9 +46,7 @@ impl<'r, 'g> Clock<'r, 'g> {
         let geometry = upload(self.renderer, batch)?;
         // The unit before and after, so that a change of clocks cancels out.
         let before = self.cycle()?;
-        let ns = self
-            .renderer
-            .time(&geometry, Workload::Triangles, SAMPLING)?;
+        let ns = self.renderer.time(&geometry, Workload::Setup, SAMPLING)?;
         let cycle = (before + self.cycle()?) / 2.0;
         Ok(ns / f64::from(BATCHES) / cycle)
     }

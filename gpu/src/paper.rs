@@ -90,7 +90,7 @@ pub fn run(renderer: &Renderer<'_>, meshes: &[NamedMesh]) -> Result<Value, GpuEr
     let mut rows = Vec::new();
     for mesh in meshes {
         let ways = Ways::new(renderer, &mesh.mesh)?;
-        for workload in [Workload::Compute, Workload::Triangles] {
+        for workload in [Workload::Compute, Workload::Setup] {
             let mut ns = [0.0; 3];
             for (time, geometry) in ns.iter_mut().zip(&ways.geometries) {
                 *time = renderer.time(geometry, workload, ways.sampling)?;

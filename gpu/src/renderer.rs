@@ -216,7 +216,7 @@ impl<'g> Renderer<'g> {
     pub fn warm_up(&self, geometry: &Geometry<'_>, sampling: Sampling) -> Result<(), GpuError> {
         let start = Instant::now();
         while self.gpu.times_mean_something() && start.elapsed() < Duration::from_millis(333) {
-            self.time(geometry, Workload::Triangles, sampling)?;
+            self.time(geometry, Workload::Setup, sampling)?;
         }
         Ok(())
     }

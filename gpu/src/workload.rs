@@ -40,7 +40,7 @@ pub(crate) const SIZE: f32 = 1e-3;
 #[non_exhaustive]
 pub enum Workload {
     /// A cheap shader and faces too small to cover a pixel: primitive setup.
-    Triangles,
+    Setup,
     /// The same with twelve values of four floats for each vertex.
     Varyings,
     /// A cheap shader, and everything discarded before it becomes pixels.
@@ -54,7 +54,7 @@ pub enum Workload {
 impl Workload {
     /// All of them, as they are listed.
     pub const ALL: [Self; 5] = [
-        Self::Triangles,
+        Self::Setup,
         Self::Varyings,
         Self::Discard,
         Self::Compute,
@@ -63,7 +63,7 @@ impl Workload {
 
     pub(crate) fn settings(self, topology: Topology, restart: bool) -> Settings {
         let (vertex, fragment) = match self {
-            Self::Triangles => (shader::CHEAP, Some(shader::WHITE)),
+            Self::Setup => (shader::CHEAP, Some(shader::WHITE)),
             Self::Varyings => (shader::VARYINGS, Some(shader::VARYINGS_FRAGMENT)),
             Self::Discard => (shader::CHEAP, None),
             Self::Compute => (shader::COMPUTE, Some(shader::WHITE)),
@@ -82,7 +82,7 @@ impl Workload {
 impl fmt::Display for Workload {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
-            Self::Triangles => "triangles",
+            Self::Setup => "setup",
             Self::Varyings => "varyings",
             Self::Discard => "discard",
             Self::Compute => "compute",

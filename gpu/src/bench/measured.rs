@@ -19,6 +19,7 @@ const FACES_A_SAMPLE: usize = 1 << 20;
 #[derive(Debug)]
 pub(super) struct Measured {
     counts: Counts,
+    /// By the model of this card, if there is one.
     prediction: Option<Prediction>,
     /// Nanoseconds of a draw for each workload, twice.
     times: [[f64; 2]; Workload::ALL.len()],
@@ -90,7 +91,7 @@ pub(super) fn measure(
     mesh: &Mesh,
     orders: &[Order],
 ) -> Result<Vec<Measured>, GpuError> {
-    let (model, _) = Model::of(renderer.gpu().card());
+    let (model, is_the_cards) = Model::of(renderer.gpu().card());
     let sampling = sampling(renderer, mesh.face_count());
 
     // Every order on the card, and counted.
@@ -105,7 +106,7 @@ pub(super) fn measure(
         let geometry = renderer.upload(&draw)?;
         measured.push(Measured {
             counts: renderer.count(&geometry)?,
-            prediction: model.predict(&draw),
+            prediction: is_the_cards.then(|| model.predict(&draw)).flatten(),
             times: [[0.0; 2]; Workload::ALL.len()],
             cycle: None,
         });
