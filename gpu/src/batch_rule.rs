@@ -48,7 +48,8 @@ impl BatchRule {
         for instance in 0..draw.instances {
             for primitive in &primitives {
                 let corners = primitive.map(|index| index.wrapping_add_signed(draw.vertex_offset));
-                filling.draw(corners, instance);
+                // A shader that does not read the instance has the same vertices in all of them.
+                filling.draw(corners, if draw.reads_instance { instance } else { 0 });
             }
         }
         filling.batches
@@ -265,9 +266,15 @@ mod tests {
         assert_eq!(lanes(&fan), [10]);
         let twice = Draw {
             instances: 2,
+            reads_instance: true,
             ..Draw::list(&strip[..9])
         };
         assert_eq!(lanes(&twice), [18]);
+        let alike = Draw {
+            reads_instance: false,
+            ..twice
+        };
+        assert_eq!(lanes(&alike), [9]);
         let apart = [0, 1, 2, RESTART, 0, 2, 1, RESTART, 3];
         assert_eq!(primitives(&Draw::strips(&apart)), [[0, 1, 2], [0, 2, 1]]);
     }

@@ -20,6 +20,8 @@ pub struct Draw<'a> {
     pub vertex_offset: i32,
     /// How often all of it is drawn.
     pub instances: u32,
+    /// Whether the shader reads the number of the instance; none of those here does.
+    pub reads_instance: bool,
     /// Where the vertices are, for shaders that ask.
     pub positions: Option<&'a [[f32; 3]]>,
 }
@@ -47,6 +49,7 @@ impl<'a> Draw<'a> {
             short: false,
             vertex_offset: 0,
             instances: 1,
+            reads_instance: false,
             positions: None,
         }
     }

@@ -58,6 +58,7 @@ impl Model {
                     restart: draw.restart.then_some(RESTART),
                     vertex_offset: draw.vertex_offset,
                     instances: draw.instances,
+                    reads_instance: draw.reads_instance,
                 }
                 .counts();
                 Some(Prediction {

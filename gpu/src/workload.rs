@@ -45,7 +45,7 @@ pub enum Workload {
     Varyings,
     /// A cheap shader, and everything discarded before it becomes pixels.
     Discard,
-    /// 800 floating-point operations a vertex.
+    /// 3,200 floating-point operations a vertex.
     Compute,
     /// 16 scattered loads a vertex.
     Memory,

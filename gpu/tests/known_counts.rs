@@ -44,6 +44,7 @@ fn batches_are_those_of_the_card() {
         let indices = indices(&line);
         let draw = Draw {
             vertex_offset: line["vertex_offset"].as_i64().unwrap().try_into().unwrap(),
+            reads_instance: true,
             instances: line["instances"].as_u64().unwrap().try_into().unwrap(),
             ..Draw::list(&indices)
         };

@@ -316,4 +316,9 @@ fn a_change_of_block_or_instance_forgets_all() {
         ..Draw::new(&[0, 1, 2])
     };
     assert_eq!((twice.counts().invocations, twice.counts().warps), (6, 1));
+    let alike = Draw {
+        reads_instance: false,
+        ..twice
+    };
+    assert_eq!((alike.counts().invocations, alike.counts().warps), (3, 1));
 }

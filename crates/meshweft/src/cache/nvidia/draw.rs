@@ -28,8 +28,8 @@ pub enum PrimitiveTopology {
 /// let list = Draw::new(&[0, 1, 2, 2, 1, 3]);
 /// let strip = Draw { topology: PrimitiveTopology::TriangleStrip, ..Draw::new(&[0, 1, 2, 3]) };
 /// assert_eq!((list.counts().invocations, strip.counts().invocations), (4, 4));
-/// // Every use of vertex 65,536 is a change of block, which forgets all vertices.
-/// let across = Draw { vertex_offset: 65_533, ..list };
+/// // Where consecutive vertices stand in two blocks of 65,536, the card forgets what it had.
+/// let across = Draw { vertex_offset: 65_534, ..list };
 /// assert_eq!(across.counts().invocations, 5);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,6 +45,9 @@ pub struct Draw<'a> {
     pub vertex_offset: i32,
     /// How often all of it is drawn.
     pub instances: u32,
+    /// Whether the vertex shader reads the number of the instance. Where it does not, a vertex of the
+    /// instance before is found like any other.
+    pub reads_instance: bool,
 }
 
 impl<'a> Draw<'a> {
@@ -57,6 +60,7 @@ impl<'a> Draw<'a> {
             restart: None,
             vertex_offset: 0,
             instances: 1,
+            reads_instance: true,
         }
     }
 
@@ -69,6 +73,7 @@ impl<'a> Draw<'a> {
     pub fn counts(&self) -> DrawCounts {
         let mut batcher = Batcher::new();
         for instance in 0..self.instances {
+            let instance = if self.reads_instance { instance } else { 0 };
             for part in self.indices.split(|&index| Some(index) == self.restart) {
                 self.draw_part(part, instance, &mut batcher);
             }

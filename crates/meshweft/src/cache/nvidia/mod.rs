@@ -12,7 +12,8 @@
 //! The corners of the primitives are numbered in the order in which they are drawn. A batch takes
 //! primitives until it has 32, or until the next one would bring it to more than 32 vertices. A corner
 //! *misses* if its vertex was not used in this batch, or last more than 42 corners ago, or if the high 16
-//! bits of the vertex number or the instance changed between two consecutive corners since. Each miss
+//! bits of the vertex number or the instance changed between two consecutive corners since (the instance
+//! only where the shader reads it). Each miss
 //! is one invocation of the vertex shader and takes a *lane*; a batch is a *warp*. Numbers are those
 //! after the base vertex was added, so a draw whose numbers all lie in one aligned block of 65,536
 //! never loses vertices by the third rule.
