@@ -39,23 +39,55 @@ struct BatchState {
     /// How many faces are drawn.
     drawn: u8,
     undrawn: u32,
-    /// The vertices that were used.
-    seen: u32,
     vertices: [Vertex; MOST_VERTICES],
     /// Pushes into the FIFO cache.
     pushes: u8,
     cost: Cost,
 }
 
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct Vertex {
-    /// The number of its last corner.
+    /// The number of its last corner; [`NEVER`] before the first.
     last: u8,
     /// How many undrawn faces it has.
     left: u8,
     /// When it entered the FIFO cache, in pushes; 0: it never did.
     entered: u8,
 }
+
+/// As the number of a vertex's last corner: it was not used. From any corner of the batch to this one
+/// it is, wrapped, [`UNUSED`] corners or more.
+const NEVER: u8 = 160;
+const UNUSED: u8 = 96;
+
+/// What a candidate's vertex is worth by how many undrawn faces it has, this one among them.
+#[expect(clippy::cast_possible_truncation, reason = "small numbers")]
+const OF_LEFT: [i8; 64] = {
+    let mut worth = [0; 64];
+    worth[1] = 6;
+    let mut left = 2;
+    while left < 64 {
+        worth[left] = 1 - left as i8;
+        left += 1;
+    }
+    worth
+};
+
+/// What it is worth by how many corners ago it was used.
+#[expect(clippy::cast_possible_truncation, reason = "small numbers")]
+const OF_USE: [i8; 256] = {
+    let mut worth = [-8; 256];
+    let mut corners = 0;
+    while corners < UNUSED as usize {
+        let faces = corners / 3;
+        worth[corners] = if faces < 8 { faces as i8 } else { 8 };
+        if faces >= 11 {
+            worth[corners] += 40;
+        }
+        corners += 1;
+    }
+    worth
+};
 
 /// The pushes at the start of a batch: what is in the FIFO cache then entered after push 0.
 #[expect(clippy::cast_possible_truncation, reason = "10")]
@@ -67,8 +99,11 @@ impl Default for BatchState {
             setup: Setup::default(),
             drawn: 0,
             undrawn: 0,
-            seen: 0,
-            vertices: [Vertex::default(); MOST_VERTICES],
+            vertices: [Vertex {
+                last: NEVER,
+                left: 0,
+                entered: 0,
+            }; MOST_VERTICES],
             pushes: FIRST_PUSH,
             cost: Cost {
                 lost: 0,
@@ -240,30 +275,23 @@ impl Grower {
         best.1
     }
 
-    /// How good it is to draw a face next: few misses, vertices that are finished, and above all those
-    /// that soon fall out of the window.
+    /// How good it is to draw a face next: vertices that are finished or were used, and above all those
+    /// that soon fall out of the window. Of the candidates each has as many corners in the slots.
     #[inline]
     fn value(&self, batch: &Batch, face: usize) -> i32 {
         let state = &self.state;
         let now = 3 * state.drawn;
-        let (mut value, mut misses) = (0, 0);
+        let mut value = 0;
         for number in batch.corners(face) {
             let vertex = &state.vertices[number];
-            let others = i32::from(vertex.left) - 1;
-            value += if others == 0 { 6 } else { -others };
-            value += if state.seen >> number & 1 == 0 {
-                -8
-            } else {
-                // In faces.
-                let age = i32::from((now - vertex.last) / 3);
-                age.min(8) + if age >= 11 { 40 } else { 0 }
-            };
-            misses += i32::from(state.setup.kept() >> number & 1 == 0);
+            let since = now.wrapping_sub(vertex.last);
+            value += i32::from(OF_LEFT[usize::from(vertex.left) % OF_LEFT.len()]);
+            value += i32::from(OF_USE[usize::from(since)]);
             if self.beside != 0 && state.is_outside(vertex) {
                 value -= self.beside.cast_signed() * 25 / 64;
             }
         }
-        value - 100 * (misses - 1).max(0)
+        value
     }
 
     /// Draws a face.
@@ -275,9 +303,9 @@ impl Grower {
 
         for (number, now) in corners.into_iter().zip(3 * state.drawn..) {
             let vertex = state.vertices[number];
-            let is_lost = state.seen >> number & 1 != 0 && u32::from(now - vertex.last) > WINDOW;
+            let since = now.wrapping_sub(vertex.last);
+            let is_lost = u32::from(since) > WINDOW && since < UNUSED;
             state.cost.lost += u32::from(is_lost);
-            state.seen |= 1 << number;
 
             let enters = self.beside != 0 && state.is_outside(&vertex);
             if enters {

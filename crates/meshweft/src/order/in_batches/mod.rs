@@ -13,6 +13,8 @@ mod growth;
 #[cfg(test)]
 mod tests;
 
+use std::cell::LazyCell;
+
 use crate::cache::CacheModel;
 use crate::cache::nvidia::{self, Batcher, LANES};
 use crate::faces::Faces;
@@ -105,11 +107,11 @@ impl InBatches {
 
         // A batch that loses nothing any more may hold more faces than before. Those after it then begin
         // elsewhere, and may by bad luck need more vertices: if so, such batches stay as they are.
-        let before = nvidia::counts(&ordered).invocations;
+        let invocations = LazyCell::new(|| nvidia::counts(&ordered).invocations);
         for extends in [true, false] {
             let mut pass = Pass::new(*self, &ordered, polygons.as_deref());
-            pass.run(extends);
-            if pass.card.invocations() <= before {
+            let is_cut_anew = pass.run(extends);
+            if !is_cut_anew || pass.card.invocations() <= *invocations {
                 return order.then(&Permutation::from_algorithm(pass.new_to_old).into());
             }
         }
@@ -159,6 +161,7 @@ struct Pass<'a> {
     batch: Batch,
     grower: Grower,
     new_to_old: Vec<u32>,
+    is_cut_anew: bool,
 }
 
 impl<'a> Pass<'a> {
@@ -171,17 +174,23 @@ impl<'a> Pass<'a> {
             batch: Batch::default(),
             grower: Grower::new(settings.reach, settings.beside),
             new_to_old: Vec::with_capacity(faces.len()),
+            is_cut_anew: false,
         }
     }
 
-    /// Draws all faces; `extends`: batches that lose vertices from the window are improved too.
-    fn run(&mut self, extends: bool) {
+    /// Draws all faces; returns whether a batch may hold other faces than before, or faces after those
+    /// that were moved. `extends`: batches that lose vertices from the window are improved too.
+    fn run(&mut self, extends: bool) -> bool {
+        let mut is_moved = false;
         while let Some(&next) = self.faces.get(self.new_to_old.len()) {
             let goes_on = self.card.primitives() > 0 && self.card.fits(next);
-            if goes_on || !self.draw_batch(extends) {
+            self.is_cut_anew |= goes_on && is_moved;
+            is_moved = !goes_on && self.draw_batch(extends);
+            if !is_moved {
                 self.draw(self.new_to_old.len());
             }
         }
+        self.is_cut_anew
     }
 
     /// Draws the faces of the next batch in the best order found, as many as may move; returns whether it
@@ -194,8 +203,11 @@ impl<'a> Pass<'a> {
             return false;
         }
         let before = self.grower.replay(&self.batch);
-        if !extends && before.lost + self.batch.vertex_count() > LANES {
-            return false;
+        if before.lost + self.batch.vertex_count() > LANES {
+            self.is_cut_anew = true;
+            if !extends {
+                return false;
+            }
         }
 
         // A face that fits in the batch before would be drawn in that one.
