@@ -15,6 +15,7 @@ mod polygons;
 mod search;
 mod target;
 mod turn_corners;
+mod vertex_blocks;
 mod vertex_fetch;
 
 pub use grid::Grid;
@@ -26,4 +27,5 @@ pub use optimizer::Optimizer;
 pub use search::tuning;
 pub use target::{Effort, ParseTargetError, Target};
 pub use turn_corners::turn_corners;
+pub use vertex_blocks::vertex_blocks;
 pub use vertex_fetch::vertex_fetch;

@@ -7,18 +7,28 @@
 //! graph inherits the cut and moves vertices across it ([`Multilevel`]). For more parts the halves
 //! are cut again, in parallel; at the end vertices move between any two parts.
 //!
+//! Parts of an exact number of vertices of a mesh (`exact`) are cut the same way from a graph of small
+//! clusters; then vertices move between neighbouring parts, at the cost of the border alone
+//! (`exchange`), until all sizes are exact.
+//!
 //! Read `graph`, then `bisection`; most of the quality comes from `refine`.
 
 mod bisection;
+mod clusters;
 mod coarsen;
+mod exact;
+mod exchange;
 mod graph;
 mod k_way;
+mod links;
 #[cfg(feature = "metis")]
 mod metis;
 mod refine;
 
 pub(crate) use bisection::{Bisection, halves};
 pub(crate) use coarsen::coarser;
+pub(crate) use exact::exact_parts;
+pub(crate) use exchange::NO_PART;
 pub use graph::Graph;
 pub use k_way::Multilevel;
 #[cfg(feature = "metis")]
