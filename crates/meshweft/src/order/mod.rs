@@ -5,6 +5,7 @@
 //! [`vertex_fetch()`] puts the vertices in the order of their first use.
 
 pub mod baselines;
+mod block_faces;
 pub mod bogomjakov_gotsman;
 mod greedy;
 mod grid;

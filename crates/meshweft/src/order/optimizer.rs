@@ -2,12 +2,16 @@
 
 use crate::cache::CacheModel;
 use crate::faces::Faces;
+use crate::first_use::FirstUse;
+use crate::index::index32;
+use crate::order::block_faces::{BlockFaces, is_in_blocks};
 use crate::order::in_batches;
 use crate::order::k_cache_reorder::KCacheReorder;
-use crate::order::polygons::check_starts;
+use crate::order::polygons::{check_starts, polygon_of_each_face};
 use crate::order::search::{self, Search};
 use crate::order::target::{Effort, Target};
-use crate::permutation::FaceOrder;
+use crate::parallel;
+use crate::permutation::{FaceOrder, Permutation};
 use crate::progress::{Budget, Progress};
 
 /// The order of a mesh's faces for a [`Target`], at an [`Effort`].
@@ -53,12 +57,16 @@ impl Optimizer {
     /// - FIFO and controllable, fast: [`KCacheReorder`].
     /// - Larger caches than 128 vertices (controllable: 64) are searched as if they had 128 (64): an
     ///   order made for that is nearly as good in a larger cache.
+    /// - More than 65,536 vertices that stand in blocks of that many, as
+    ///   [`vertex_blocks`](super::vertex_blocks()) numbers them (at most one face in 20 across a border):
+    ///   block by block. Universal: the faces across borders come last; `nvidia`: two at the end of a
+    ///   batch; others: in the block with two of their vertices.
     /// - LRU: as for a FIFO cache of five eighths of the size; made for the whole size, an order
     ///   falls off the edge of an LRU cache.
     ///
     /// # Complexity
-    /// Time O(vertices + faces), with a factor that the effort sets. Meshes of more than 262
-    /// thousand faces are cut into parts of at least 131 thousand. Space: 40 bytes a face of the
+    /// Time O(vertices + faces), with a factor that the effort sets. Meshes in blocks are ordered in
+    /// parts of a block each, others of more than 262 thousand faces in parts of at least 131 thousand. Space: 40 bytes a face of the
     /// whole, and 90 bytes a face of the parts being searched, one a thread.
     #[must_use]
     pub fn face_order<'a>(&self, faces: impl Into<Faces<'a>>) -> FaceOrder {
@@ -108,9 +116,9 @@ impl Optimizer {
         // One pass, where that is enough.
         let is_timed = progress.time_spent().is_some();
         if !is_timed && let Some(greedy) = self.greedy() {
-            let order = match starts {
-                Some(starts) => greedy.polygon_order(faces, starts),
-                None => greedy.face_order(faces),
+            let order = match is_in_blocks(faces) {
+                true => greedy_by_blocks(&greedy, faces, starts),
+                false => greedy_order(&greedy, faces, starts),
             };
             let _ = progress.report(1.0);
             return order;
@@ -156,4 +164,50 @@ impl Optimizer {
             ..KCacheReorder::default()
         })
     }
+}
+
+fn greedy_order(greedy: &KCacheReorder, faces: Faces<'_>, starts: Option<&[u32]>) -> FaceOrder {
+    match starts {
+        Some(starts) => greedy.polygon_order(faces, starts),
+        None => greedy.face_order(faces),
+    }
+}
+
+/// The faces block by block, each block as a mesh of its own.
+fn greedy_by_blocks(greedy: &KCacheReorder, faces: Faces<'_>, starts: Option<&[u32]>) -> FaceOrder {
+    let polygons = starts.map(polygon_of_each_face);
+    let BlockFaces { order, blocks } = BlockFaces::new(faces, polygons.as_deref(), false);
+
+    // Each block with its own vertex numbers; whole polygons follow each other in it.
+    let mut numbers = FirstUse::new(faces.vertex_count(), 3 * faces.len());
+    let mut start = 0;
+    let parts = blocks.iter().map(|ends| {
+        let members = &order.new_to_old()[start..ends.all];
+        let corners = members.iter().map(|&face| faces.as_slice()[face as usize]);
+        let corners = corners.map(|face| face.map(|vertex| numbers.number(vertex)));
+        let corners: Vec<[u32; 3]> = corners.collect();
+        let starts = polygons.as_ref().map(|polygons| {
+            let is_first = |&(_, &face): &(u32, &u32)| polygons[face as usize][0] == face;
+            let firsts = (0..).zip(members).filter(is_first).map(|(i, _)| i);
+            firsts.chain([index32(members.len())]).collect::<Vec<u32>>()
+        });
+        let offset = index32(std::mem::replace(&mut start, ends.all));
+        (offset, corners, numbers.finish().len(), starts)
+    });
+
+    let ordered = parallel::map(
+        parts.collect(),
+        |(offset, corners, vertex_count, starts)| {
+            let faces = Faces::of_checked(&corners, vertex_count);
+            (offset, greedy_order(greedy, faces, starts.as_deref()))
+        },
+    );
+    let mut new_to_old = Vec::with_capacity(faces.len());
+    let mut rotations = Vec::with_capacity(faces.len());
+    for (offset, part) in ordered {
+        rotations.extend((0..part.len()).map(|i| part.rotation(i)));
+        new_to_old.extend(part.new_to_old().iter().map(|&face| offset + face));
+    }
+    let joined = FaceOrder::new(Permutation::from_algorithm(new_to_old), rotations);
+    FaceOrder::from(order).then(&joined.expect("one rotation below 3 a face"))
 }

@@ -16,8 +16,10 @@
 //! aligned with them from the first face to the last. The *universal* target models a small FIFO
 //! cache and a batch at once, and also counts vertices that leave longer windows unfinished.
 //!
-//! Read `settings` for the words, `rollout` for the loop, `state` for undo, `parts` for threads.
+//! Read `settings` for the words, `rollout` for the loop, `state` for undo, `parts` for threads,
+//! `border` for meshes of more than 65,536 vertices.
 
+mod border;
 mod mask;
 mod parts;
 mod preset;

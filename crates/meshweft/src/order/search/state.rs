@@ -76,6 +76,12 @@ pub(super) struct State<'a, M, const CACHES: usize> {
     pub(super) keep_corners: bool,
     /// Where the polygon of each face begins and ends; empty if there are no polygons.
     pub(super) polygons: &'a [[u32; 2]],
+    /// How many faces across a border wait once each vertex is finished; empty where there are none.
+    pub(super) anchored: Vec<u32>,
+    /// How many wait now.
+    waiting: u32,
+    /// After how many faces a batch ends with two of them.
+    pub(super) hosts: Vec<u32>,
     /// A buffer for the live faces of a focus.
     gathered: Vec<u32>,
     /// The number of the current attempt.
@@ -98,6 +104,9 @@ pub(super) struct Saved<M, const CACHES: usize> {
     pub(super) drawn: usize,
     /// How many dead ends there were.
     dead_ends: usize,
+    waiting: u32,
+    /// How many hosts there were.
+    hosts: usize,
 }
 
 /// What is known of a candidate for the next focus.
@@ -171,6 +180,9 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
             window_exits: [0; WINDOWS],
             keep_corners: false,
             polygons: &[],
+            anchored: Vec::new(),
+            waiting: 0,
+            hosts: Vec::new(),
             gathered: vec![0; HUB as usize],
             attempt: 0,
             overwritten: Vec::new(),
@@ -213,7 +225,11 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
             limits.batch_faces != u32::MAX || limits.batch_vertices != u32::MAX
         };
         let batches = self.caches.iter().filter(has_batches);
-        let faces = batches.map(|cache| cache.faces_in_batch as usize);
+        let faces = batches.map(|cache| match cache.reserved {
+            0 => cache.faces_in_batch as usize,
+            // It is full with the faces across a border.
+            _ => 0,
+        });
         faces.max().unwrap_or(0)
     }
 
@@ -237,6 +253,8 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
             window_exits: self.window_exits,
             drawn: self.new_to_old.len(),
             dead_ends: self.dead_ends.len(),
+            waiting: self.waiting,
+            hosts: self.hosts.len(),
         }
     }
 
@@ -266,6 +284,8 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
         self.new_to_old.truncate(saved.drawn);
         self.rotations.truncate(saved.drawn);
         self.dead_ends.truncate(saved.dead_ends);
+        self.waiting = saved.waiting;
+        self.hosts.truncate(saved.hosts);
 
         self.caches.clone_from(&saved.caches);
         self.candidate_pushes = saved.candidate_pushes;

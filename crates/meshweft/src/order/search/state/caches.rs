@@ -47,6 +47,8 @@ pub(in crate::order::search) struct Cache {
     pub(super) first: u32,
     pub(super) faces_in_batch: u32,
     pub(super) pushes_in_batch: u32,
+    /// How many faces across a border end the batch: it takes no more than these.
+    pub(super) reserved: u32,
     /// Controllable: how many vertices are in it; those that the face being drawn finishes leave
     /// after it.
     pub(super) held: u32,
@@ -65,6 +67,7 @@ impl Cache {
             first: index32(RING),
             faces_in_batch: 0,
             pushes_in_batch: 0,
+            reserved: 0,
             held: 0,
             exits: 0,
             ring: [nobody; RING],
@@ -74,7 +77,7 @@ impl Cache {
     /// Whether another face, with `misses` misses, fits in the batch.
     #[inline]
     pub(super) fn has_room(&self, misses: u32) -> bool {
-        self.faces_in_batch != self.limits.batch_faces
+        self.faces_in_batch + self.reserved != self.limits.batch_faces
             && self.pushes_in_batch.saturating_add(misses) <= self.limits.batch_vertices
     }
 

@@ -2,10 +2,12 @@
 
 use std::ops::Range;
 
+use super::super::border::{HOSTED, HOSTED_VERTICES};
 use super::super::mask::Mask;
 use super::caches::RING;
 use super::{State, one_in};
 use crate::faces::turned;
+use crate::index::index32;
 use crate::order::greedy::{HITS_FIRST, HUB, gather_live};
 
 impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
@@ -64,9 +66,26 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
             }
         }
 
+        if self.waiting >= HOSTED {
+            self.host();
+        }
+
         // Finished corners leave a controllable cache after the face: until then it needs them.
         if self.caches[0].limits.is_controllable {
             self.caches[0].held -= finished;
+        }
+    }
+
+    /// Leaves the end of the batch to faces across a border that wait, if it is near and there is room.
+    fn host(&mut self) {
+        let batch = &mut self.caches[CACHES - 1];
+        let limits = batch.limits;
+        let is_near = batch.faces_in_batch + HOSTED == limits.batch_faces;
+        let vertices = batch.pushes_in_batch.saturating_add(HOSTED_VERTICES);
+        if is_near && vertices <= limits.batch_vertices {
+            batch.reserved = HOSTED;
+            self.waiting -= HOSTED;
+            self.hosts.push(index32(self.new_to_old.len()));
         }
     }
 
@@ -114,6 +133,9 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
             if is_finished {
                 finished += 1;
                 self.drop_candidate(entered);
+                if let Some(count) = self.anchored.get(corners[i] as usize) {
+                    self.waiting += count;
+                }
             }
         }
         finished
@@ -236,6 +258,7 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         model.first = end;
         model.faces_in_batch = 0;
         model.pushes_in_batch = 0;
+        model.reserved = 0;
 
         for number in start..end {
             let vertex = self.caches[cache].pushed(number);
