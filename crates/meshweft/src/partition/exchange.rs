@@ -9,6 +9,10 @@ use crate::index::index32;
 /// The part of a vertex on no face.
 pub(crate) const NO_PART: u32 = u32::MAX;
 
+/// More edges than a vertex has that moves: to learn the gain of one again and again takes as long as it
+/// has edges, and where it stands decides little.
+const HUB: usize = 1 << 10;
+
 /// A gain that is not known.
 const UNKNOWN: i32 = i32::MIN;
 
@@ -25,6 +29,7 @@ pub(super) struct Exchange<'a> {
     borders: BTreeMap<[u32; 2], Vec<u32>>,
     /// How much less is cut if a vertex moves to the other part of this pass; mostly unknown.
     gains: Vec<i32>,
+    /// Vertices that moved in this pass; hubs always.
     is_locked: Vec<bool>,
 }
 
@@ -65,10 +70,11 @@ impl<'a> Exchange<'a> {
         for &part in part_of.iter().filter(|&&part| part != NO_PART) {
             sizes[part as usize] += 1;
         }
+        let is_hub = |vertex| links.others(vertex).nth(HUB).is_some();
         let mut exchange = Self {
             links,
             gains: vec![UNKNOWN; part_of.len()],
-            is_locked: vec![false; part_of.len()],
+            is_locked: (0..index32(part_of.len())).map(is_hub).collect(),
             borders: BTreeMap::new(),
             part_of,
             sizes,
@@ -84,8 +90,11 @@ impl<'a> Exchange<'a> {
         self.borders.keys().copied().collect()
     }
 
-    /// Enters the ends of an edge in the border of their parts, if these differ.
+    /// Enters the ends of an edge in the border of their parts, if these differ and none is a hub.
     fn note_border(&mut self, ends: [u32; 2]) {
+        if ends.iter().any(|&vertex| self.is_locked[vertex as usize]) {
+            return;
+        }
         let [a, b] = ends.map(|vertex| self.part_of[vertex as usize]);
         if a != b {
             let border = self.borders.entry([a.min(b), a.max(b)]).or_default();
@@ -282,7 +291,8 @@ impl<'a> Exchange<'a> {
     fn shift(&mut self, vertex: u32, pass: &mut Pass) {
         let links = self.links;
         for other in links.others(vertex) {
-            if pass.parts.contains(&self.part_of[other as usize]) {
+            let is_in = pass.parts.contains(&self.part_of[other as usize]);
+            if is_in && !self.is_locked[other as usize] {
                 self.learn(other, pass);
             }
         }
@@ -295,11 +305,9 @@ impl<'a> Exchange<'a> {
 
         for other in links.others(vertex) {
             let part = self.part_of[other as usize];
-            if part == from || part == to {
+            if (part == from || part == to) && !self.is_locked[other as usize] {
                 self.gains[other as usize] += if part == from { 2 } else { -2 };
-                if !self.is_locked[other as usize] {
-                    self.enter(other, pass);
-                }
+                self.enter(other, pass);
             }
         }
     }
