@@ -16,3 +16,12 @@ pub(crate) fn index32(n: usize) -> u32 {
     debug_assert!(n <= MAX_VERTICES);
     n as u32
 }
+
+/// Vertices in a block: as many as 16 bits count.
+pub(crate) const BLOCK: usize = 1 << 16;
+
+/// The block of 65,536 vertices that a vertex stands in, by its number.
+#[inline]
+pub(crate) const fn block_of(vertex: u32) -> u32 {
+    vertex >> 16
+}

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::Mesh;
-use crate::first_use::FirstUse;
+use crate::first_use::{FirstUse, keeps_blocks};
 use crate::index::index32;
 use crate::permutation::{FaceOrder, Permutation, VertexOrder};
 
@@ -56,8 +56,8 @@ impl MeshEntry {
 
     /// An order of the records, made by ordering each run on its own with `face_order`.
     ///
-    /// `face_order` sees one run as a mesh of triangles over the vertices it uses and, if there are
-    /// polygons, where the triangles of each start (and the end of the last). A polygon goes where
+    /// `face_order` sees one run as a mesh of triangles over the vertices it uses (over all where it uses a
+    /// quarter of more than 65,536, whose numbers then mean something) and, if there are polygons, where the triangles of each start (and the end of the last). A polygon goes where
     /// the first of its triangles goes and is never turned; triangles are turned only if the file
     /// allows it. Where the faces must stay, `face_order` is not called.
     ///
@@ -141,7 +141,7 @@ impl MeshEntry {
         }
     }
 
-    /// A run as a mesh of its own, its vertices numbered by first use.
+    /// A run as a mesh of its own, its vertices numbered by first use, or as they are.
     fn run_mesh(&self, run: Range<usize>, numbers: &mut FirstUse) -> RunMesh {
         let mut faces = Vec::new();
         let mut record_of = Vec::new();
@@ -160,7 +160,15 @@ impl MeshEntry {
             starts.push(index32(faces.len()));
         }
 
-        let vertex_count = numbers.finish().len();
+        // A run of much of a large buffer keeps its numbers, which stand in blocks.
+        let used = numbers.finish();
+        let mut vertex_count = used.len();
+        if keeps_blocks(self.mesh.vertex_count(), vertex_count) {
+            vertex_count = self.mesh.vertex_count();
+            for face in &mut faces {
+                *face = face.map(|vertex| used[vertex as usize]);
+            }
+        }
         RunMesh {
             mesh: Mesh::connectivity_only(vertex_count, faces).expect("indices are local"),
             record_of,

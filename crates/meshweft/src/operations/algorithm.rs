@@ -7,7 +7,7 @@ use super::options::{Greedy, Options};
 use super::shared_progress::SharedProgress;
 use crate::cache::{self, CacheModel};
 use crate::faces::Faces;
-use crate::order::{Effort, KCacheReorder, Mode, Optimizer, Target};
+use crate::order::{Effort, KCacheReorder, Mode, Optimizer, Target, is_in_blocks};
 use crate::permutation::FaceOrder;
 use crate::progress::{Budget, Progress};
 
@@ -87,7 +87,8 @@ impl Algorithm {
         };
         let is_search = self.optimizer.effort != Effort::Fast
             || progress.time_spent().is_some()
-            || starts.is_some();
+            || starts.is_some()
+            || is_in_blocks(faces);
         if self.greedy.is_none() && is_search {
             let order = self.optimizer.face_order_with(faces, starts, progress);
             let ordered = order.apply(faces.as_slice());

@@ -105,7 +105,7 @@ impl Algorithm {
             if !is_checked || progress.is_stopped() {
                 break;
             }
-            now = Compact::of_owned(ordered, vertex_count);
+            now = now.reordered(ordered);
         }
 
         progress.part(left).finish();
@@ -114,7 +114,7 @@ impl Algorithm {
 }
 
 /// Whether `after` misses for `before` are worth it.
-fn is_gain(before: u64, after: u64) -> bool {
+pub(super) fn is_gain(before: u64, after: u64) -> bool {
     after < before && (before - after).saturating_mul(SMALLEST_GAIN) >= before
 }
 

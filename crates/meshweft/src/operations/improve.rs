@@ -4,16 +4,17 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::algorithm::Algorithm;
-use super::better::better_vertex_order;
 use super::counts::Counts;
+use super::improved::{FaceChange, Improved};
 use super::options::Options;
 use super::shared_progress::SharedProgress;
+use super::vertex_groups::{InBlocks, Judgement, better_order_of_group, movable_groups};
 use crate::cache::CacheModel;
 use crate::faces::Faces;
 use crate::files::{Document, Edit, FileError, MeshEntry};
 use crate::order::Target;
 use crate::parallel;
-use crate::permutation::{FaceOrder, VertexOrder};
+use crate::permutation::VertexOrder;
 use crate::progress::Progress;
 
 /// What is to be done to each mesh and each vertex group.
@@ -34,15 +35,6 @@ pub(super) struct VertexChange {
     pub(super) order: VertexOrder,
 }
 
-/// What is to be done to the faces of a mesh.
-pub(super) struct FaceChange {
-    pub(super) order: FaceOrder,
-    /// Why an order that was found is not taken.
-    pub(super) reason: Option<&'static str>,
-    /// Pushes of the schedule that came with the order, for a controllable cache.
-    pub(super) scheduled: Option<u64>,
-}
-
 /// Orders faces and vertices. `before` has the counts of each mesh under `models`.
 pub(super) fn improve(
     entries: &[MeshEntry],
@@ -55,16 +47,26 @@ pub(super) fn improve(
     let face_count = entries.iter().map(|entry| entry.mesh.face_count()).sum();
     let shared = SharedProgress::new(progress, face_count);
 
+    // Large groups of vertices are put in blocks first: faces are then ordered block by block.
+    let groups = match options.keep_vertex_order {
+        true => BTreeMap::new(),
+        false => movable_groups(entries),
+    };
+    let in_blocks = InBlocks::new(entries, &groups);
+
     // Faces: each mesh has its share of a budget, by where its faces stand among all.
     let mut first_face = 0;
-    let jobs = entries.iter().zip(before).map(|(entry, before)| {
+    let jobs = entries.iter().zip(before).enumerate();
+    let jobs = jobs.map(|(i, (entry, before))| {
         let first = first_face;
         first_face += entry.mesh.face_count();
-        (entry, before, first)
+        (i, entry, before, first)
     });
-    let job = |(entry, before, first)| {
+    let job = |(i, entry, before, first)| {
+        let renumbered = in_blocks.entry(i);
         MeshJob {
-            entry,
+            entry: renumbered.unwrap_or(entry),
+            is_renumbered: renumbered.is_some(),
             before,
             first,
             face_count,
@@ -78,19 +80,23 @@ pub(super) fn improve(
         true => jobs.map(job).collect(),
         false => parallel::map(jobs.collect(), job),
     };
-    let (faces, mut meshes): (Vec<_>, Vec<_>) = improved.into_iter().unzip();
+    let (mut faces, mut meshes): (Vec<_>, Vec<_>) = improved.into_iter().unzip();
 
     // Vertices.
     let mut vertices = BTreeMap::new();
-    if !options.keep_vertex_order {
-        for (group, members) in movable_groups(entries) {
-            if let Some(order) = better_order_of_group(&members, &meshes, &faces) {
-                let old_to_new = order.permutation().old_to_new();
-                for &i in &members {
-                    meshes[i].renumber(&old_to_new);
-                }
-                vertices.insert(group, VertexChange { members, order });
+    for (group, members) in groups {
+        let settled = match in_blocks.order(group) {
+            None => better_order_of_group(&members, &mut meshes, &faces),
+            Some(blocks) => Judgement {
+                members: &members,
+                entries,
+                before,
+                algorithm: &algorithm,
             }
+            .settle(blocks, &mut meshes, &mut faces),
+        };
+        if let Some(order) = settled {
+            vertices.insert(group, VertexChange { members, order });
         }
     }
 
@@ -102,50 +108,17 @@ pub(super) fn improve(
     }
 }
 
-/// The members of each vertex group whose vertices may move.
-fn movable_groups(entries: &[MeshEntry]) -> BTreeMap<usize, Vec<usize>> {
-    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (i, entry) in entries.iter().enumerate() {
-        groups.entry(entry.vertex_group).or_default().push(i);
-    }
-    groups.retain(|_, members| members.iter().all(|&i| entries[i].vertices_movable));
-    groups
-}
-
-/// The vertices of a group in the order of their first use by all its members, if that is worth it.
-fn better_order_of_group(
-    members: &[usize],
-    meshes: &[Improved<'_>],
-    changes: &[FaceChange],
-) -> Option<VertexOrder> {
-    let vertex_count = meshes[members[0]].counts.vertices;
-    let all: Cow<'_, [[u32; 3]]> = match members {
-        [only] => meshes[*only].faces.as_ref().into(),
-        _ => {
-            let all = members.iter().flat_map(|&i| meshes[i].faces.iter());
-            all.copied().collect()
-        }
-    };
-    let faces_moved = members.iter().any(|&i| !changes[i].order.is_identity());
-    better_vertex_order(Faces::of_checked(&all, vertex_count), faces_moved)
-}
-
 /// The faces of one mesh, to be ordered.
 struct MeshJob<'a> {
     entry: &'a MeshEntry,
+    /// Whether its vertices have other numbers than in the file, which is what was counted before.
+    is_renumbered: bool,
     before: &'a Counts,
     /// How many faces the meshes before it have, and all together.
     first: usize,
     face_count: usize,
     algorithm: &'a Algorithm,
     models: &'a [CacheModel],
-}
-
-/// A mesh in its better order.
-struct Improved<'a> {
-    faces: Cow<'a, [[u32; 3]]>,
-    /// Not yet with what is fetched.
-    counts: Counts,
 }
 
 impl<'a> MeshJob<'a> {
@@ -197,36 +170,20 @@ impl<'a> MeshJob<'a> {
         (change, Improved { faces, counts })
     }
 
-    /// The mesh as it was, and why.
+    /// The faces as they were, and why.
     fn unchanged(self, reason: Option<&'static str>) -> (FaceChange, Improved<'a>) {
-        let change = FaceChange {
-            order: FaceOrder::identity(self.entry.record_count()),
-            reason,
-            scheduled: None,
+        let faces = self.entry.mesh.faces();
+        let counts = match self.is_renumbered {
+            true => self
+                .before
+                .reordered(self.entry.mesh.as_faces(), self.models),
+            false => self.before.clone(),
         };
         let improved = Improved {
-            faces: Cow::Borrowed(self.entry.mesh.faces()),
-            counts: self.before.clone(),
+            faces: Cow::Borrowed(faces),
+            counts,
         };
-        (change, improved)
-    }
-}
-
-impl Improved<'_> {
-    /// Gives the vertices their new numbers.
-    fn renumber(&mut self, old_to_new: &[u32]) {
-        for face in self.faces.to_mut() {
-            *face = face.map(|vertex| old_to_new[vertex as usize]);
-        }
-    }
-
-    /// The counts, with what is fetched where anything moved.
-    fn into_counts(mut self) -> Counts {
-        if let Cow::Owned(faces) = &self.faces {
-            let faces = Faces::of_checked(faces, self.counts.vertices);
-            self.counts.count_fetched(faces);
-        }
-        self.counts
+        (FaceChange::none(self.entry, reason), improved)
     }
 }
 

@@ -1,12 +1,15 @@
 //! The main job on raw indices.
 
 use super::algorithm::Algorithm;
-use super::better::better_vertex_order;
+use super::better::{better_vertex_order, is_gain};
+use super::counts::VERTEX_SIZE;
 use super::options::Options;
 use super::shared_progress::SharedProgress;
+use crate::cache;
 use crate::error::MeshError;
 use crate::faces::Faces;
-use crate::order::{Effort, Target};
+use crate::index::BLOCK;
+use crate::order::{Effort, Target, first_use_in_blocks, vertex_fetch};
 use crate::permutation::{FaceOrder, VertexOrder};
 use crate::progress::{Budget, Progress};
 
@@ -166,6 +169,12 @@ impl IndexOptions {
         let algorithm = Algorithm::new(&self.options());
         let shared = SharedProgress::new(progress, faces.len());
 
+        if self.renumber_vertices && vertex_count > BLOCK {
+            let orders = in_blocks(&algorithm, faces, vertex_count, &shared);
+            shared.finish();
+            return orders;
+        }
+
         // Faces.
         let now = Faces::of_checked(faces, vertex_count);
         let order = algorithm.run_order(now, None, None, &shared).order;
@@ -190,10 +199,63 @@ impl IndexOptions {
     }
 }
 
+/// Orders faces on more than 65,536 vertices, which are put in blocks first, and both where they are.
+///
+/// What an order costs is counted in the numbers that were given and in the new ones.
+fn in_blocks(
+    algorithm: &Algorithm,
+    faces: &mut Vec<[u32; 3]>,
+    vertex_count: usize,
+    progress: &SharedProgress<'_>,
+) -> Orders {
+    let cost = |faces: &[[u32; 3]]| {
+        let faces = Faces::of_checked(faces, vertex_count);
+        algorithm.target().cost(faces)
+    };
+
+    // Blocks, faces, then vertices inside blocks.
+    let blocks = vertex_fetch(Faces::of_checked(faces, vertex_count));
+    let mut ordered = blocks.renumber(faces);
+    let before = cost(faces);
+    let now = Faces::of_checked(&ordered, vertex_count);
+    let mut order = algorithm.run_order(now, None, Some(before), progress).order;
+    if !order.is_identity() {
+        let moved = order.apply(&ordered);
+        match algorithm.refusal(before, cost(&moved)) {
+            None => ordered = moved,
+            Some(_) => order = FaceOrder::identity(faces.len()),
+        }
+    }
+    let inside = first_use_in_blocks(Faces::of_checked(&ordered, vertex_count));
+    inside.renumber_in_place(&mut ordered);
+    let vertices = blocks.then(&inside);
+
+    // Numbers alone are taken for what they are worth.
+    let is_worth = || {
+        let after = cost(&ordered);
+        let fetched = |faces: &[[u32; 3]]| {
+            let faces = Faces::of_checked(faces, vertex_count);
+            cache::fetched(faces, VERTEX_SIZE)
+        };
+        is_gain(before, after) || after <= before && is_gain(fetched(faces), fetched(&ordered))
+    };
+    if order.is_identity() && !is_worth() {
+        return Orders {
+            faces: order,
+            vertices: Some(VertexOrder::identity(vertex_count)),
+        };
+    }
+    *faces = ordered;
+    Orders {
+        faces: order,
+        vertices: Some(vertices),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cache::{self, CacheModel};
+    use crate::cache::CacheModel;
     use crate::permutation::Permutation;
 
     /// A grid of squares, its faces and vertices shuffled.

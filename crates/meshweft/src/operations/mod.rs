@@ -16,6 +16,8 @@ mod compare;
 mod counts;
 #[cfg(feature = "files")]
 mod improve;
+#[cfg(feature = "files")]
+mod improved;
 mod indices;
 #[cfg(feature = "files")]
 mod inspect;
@@ -28,6 +30,8 @@ mod optimize;
 mod optimize_json;
 mod options;
 mod shared_progress;
+#[cfg(feature = "files")]
+mod vertex_groups;
 
 #[cfg(feature = "files")]
 pub use compare::{CompareReport, ComparedFile, compare};

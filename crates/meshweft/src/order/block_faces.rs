@@ -1,8 +1,8 @@
 //! The faces of a mesh by the blocks of 65,536 vertices that its numbering stands in.
 
-use super::vertex_blocks::{BLOCK, block_of, faces_across};
+use super::vertex_blocks::faces_across;
 use crate::faces::Faces;
-use crate::index::index32;
+use crate::index::{BLOCK, block_of, index32};
 use crate::permutation::Permutation;
 use crate::topology::rows;
 

@@ -19,6 +19,7 @@ mod turn_corners;
 mod vertex_blocks;
 mod vertex_fetch;
 
+pub(crate) use block_faces::is_in_blocks;
 pub use grid::Grid;
 pub use in_batches::InBatches;
 pub use k_cache_reorder::{KCacheReorder, Mode};
@@ -28,5 +29,6 @@ pub use optimizer::Optimizer;
 pub use search::tuning;
 pub use target::{Effort, ParseTargetError, Target};
 pub use turn_corners::turn_corners;
+pub(crate) use vertex_blocks::first_use_in_blocks;
 pub use vertex_blocks::vertex_blocks;
 pub use vertex_fetch::vertex_fetch;

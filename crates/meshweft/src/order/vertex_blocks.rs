@@ -7,18 +7,9 @@
 //! cut, each of exactly 65,536 vertices, so that they stand where the high bits change.
 
 use crate::faces::Faces;
-use crate::index::index32;
+use crate::index::{BLOCK, block_of, index32};
 use crate::partition::{NO_PART, exact_parts};
 use crate::permutation::{Permutation, VertexOrder};
-
-/// Vertices in a block: as many as 16 bits count.
-pub(crate) const BLOCK: usize = 1 << 16;
-
-/// The block of a vertex, by its number.
-#[inline]
-pub(crate) const fn block_of(vertex: u32) -> u32 {
-    vertex >> 16
-}
 
 /// The vertices block by block, each block of exactly 65,536 vertices but for the last, with few
 /// faces across borders; in each by first use. Unused vertices come last, in file order.
@@ -111,4 +102,35 @@ pub(super) fn faces_across(faces: Faces<'_>, block_of: impl Fn(u32) -> u32) -> u
         a != b || b != c
     };
     faces.as_slice().iter().filter(is_across).count()
+}
+
+/// The vertices in the order of their first use, each in the block where it stands; without blocks where
+/// one holds all that are used.
+pub(crate) fn first_use_in_blocks(faces: Faces<'_>) -> VertexOrder {
+    let vertex_count = faces.vertex_count();
+    let mut is_used = vec![false; vertex_count];
+    for &vertex in faces.as_slice().as_flattened() {
+        is_used[vertex as usize] = true;
+    }
+    match is_used.iter().filter(|&&used| used).count() {
+        0..=BLOCK => by_first_use(faces),
+        _ => {
+            let given: Vec<u32> = (0..index32(vertex_count)).map(block_of).collect();
+            in_blocks(faces, &given)
+        }
+    }
+}
+
+/// The vertices in the order of their first use, whatever their number.
+pub(super) fn by_first_use(faces: Faces<'_>) -> VertexOrder {
+    let vertex_count = faces.vertex_count();
+    let mut seen = vec![false; vertex_count];
+    let mut new_to_old = Vec::with_capacity(vertex_count);
+    let uses = faces.as_slice().iter().flatten().copied();
+    for vertex in uses.chain(0..index32(vertex_count)) {
+        if !std::mem::replace(&mut seen[vertex as usize], true) {
+            new_to_old.push(vertex);
+        }
+    }
+    Permutation::from_algorithm(new_to_old).into()
 }

@@ -1,10 +1,14 @@
 //! Vertices in the order in which the faces first use them, so that they are fetched in sequence.
 
-use super::vertex_blocks::{BLOCK, block_of, faces_across, in_blocks, new_blocks};
+use super::vertex_blocks::{by_first_use, faces_across, in_blocks, new_blocks};
 use crate::faces::Faces;
-use crate::index::index32;
+use crate::index::{BLOCK, block_of, index32};
 use crate::partition::NO_PART;
-use crate::permutation::{Permutation, VertexOrder};
+use crate::permutation::VertexOrder;
+
+/// One face in so many across a border is as good as none. Cuts of a mesh in other numbers differ, by up
+/// to a third where few faces are across.
+const FEW_ACROSS: usize = 1000;
 
 /// The vertices in the order of their first use by `faces`; unused ones after them, in file order.
 ///
@@ -15,8 +19,8 @@ use crate::permutation::{Permutation, VertexOrder};
 ///
 /// More than 65,536 used vertices are put in blocks of that many, as
 /// [`vertex_blocks`](super::vertex_blocks()) does, and inside a block by first use. Where they stand in
-/// blocks with as few faces across borders, within a quarter, these stay: so after an order of the
-/// faces inside the blocks, the vertices follow without another cut.
+/// blocks of at most one and a half times as many faces across borders, or of one in a thousand, these
+/// stay, and vertices move inside them: so they do after an order of the faces inside the blocks.
 ///
 /// # Complexity
 /// Time and space O(vertices + faces); of more than 65,536 vertices as
@@ -53,28 +57,16 @@ pub fn vertex_fetch<'a>(faces: impl Into<Faces<'a>>) -> VertexOrder {
     let is_full = is_named.iter().filter(|&&named| named).count() == count;
     let [across, across_new] =
         [&given, &new].map(|blocks| faces_across(faces, |v| blocks[v as usize]));
-    let stay = is_full && across * 4 <= across_new * 5;
+    let are_few = across * FEW_ACROSS <= faces.len() || across * 2 <= across_new * 3;
+    let stay = is_full && are_few;
     in_blocks(faces, if stay { &given } else { &new })
-}
-
-/// The vertices in the order of their first use, whatever their number.
-fn by_first_use(faces: Faces<'_>) -> VertexOrder {
-    let vertex_count = faces.vertex_count();
-    let mut seen = vec![false; vertex_count];
-    let mut new_to_old = Vec::with_capacity(vertex_count);
-    let uses = faces.as_slice().iter().flatten().copied();
-    for vertex in uses.chain(0..index32(vertex_count)) {
-        if !std::mem::replace(&mut seen[vertex as usize], true) {
-            new_to_old.push(vertex);
-        }
-    }
-    Permutation::from_algorithm(new_to_old).into()
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::vertex_blocks;
     use super::*;
+    use crate::permutation::Permutation;
 
     /// A grid of 300 × 300 squares and five unused vertices, all vertices and faces shuffled.
     fn grid() -> (Vec<[u32; 3]>, usize) {

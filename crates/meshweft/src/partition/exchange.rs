@@ -34,7 +34,7 @@ pub(super) struct Exchange<'a> {
 }
 
 /// A pass over the border of two parts.
-struct Pass {
+struct Exchanging {
     parts: [u32; 2],
     /// For each part its vertices by gain, ties to the lowest number: entries are the gain and
     /// `u32::MAX` minus the vertex, out of date if the vertex has moved or has another gain.
@@ -47,7 +47,7 @@ struct Pass {
     known: Vec<u32>,
 }
 
-impl Pass {
+impl Exchanging {
     /// How far `given` is from what it should be.
     fn excess(&self, given: i64) -> i64 {
         (self.aim.start() - given)
@@ -112,7 +112,7 @@ impl<'a> Exchange<'a> {
     ///
     /// Time O(log border) for each vertex of the border and each edge of those that move.
     pub(super) fn pass(&mut self, parts: [u32; 2], aim: RangeInclusive<i64>) -> bool {
-        let mut pass = Pass {
+        let mut pass = Exchanging {
             parts,
             heaps: Default::default(),
             given: 0,
@@ -237,7 +237,7 @@ impl<'a> Exchange<'a> {
     }
 
     /// Learns the gain of a vertex of one of the parts.
-    fn learn(&mut self, vertex: u32, pass: &mut Pass) {
+    fn learn(&mut self, vertex: u32, pass: &mut Exchanging) {
         if self.gains[vertex as usize] != UNKNOWN {
             return;
         }
@@ -253,14 +253,14 @@ impl<'a> Exchange<'a> {
     }
 
     /// Enters a vertex with its gain in the heap of its part.
-    fn enter(&self, vertex: u32, pass: &mut Pass) {
+    fn enter(&self, vertex: u32, pass: &mut Exchanging) {
         let side = usize::from(self.part_of[vertex as usize] == pass.parts[1]);
         pass.heaps[side].push((self.gains[vertex as usize], u32::MAX - vertex));
     }
 
     /// Takes the vertex of greatest gain whose move keeps or betters the balance; one vertex too many
     /// may be given. `None` if there is none.
-    fn next(&self, pass: &mut Pass) -> Option<(u32, i32)> {
+    fn next(&self, pass: &mut Exchanging) -> Option<(u32, i32)> {
         let mut choice = None;
         for side in 0..2 {
             // Drop entries that are out of date.
@@ -288,7 +288,7 @@ impl<'a> Exchange<'a> {
     }
 
     /// Moves a vertex to the other part, locks it, and enters its neighbours with their new gains.
-    fn shift(&mut self, vertex: u32, pass: &mut Pass) {
+    fn shift(&mut self, vertex: u32, pass: &mut Exchanging) {
         let links = self.links;
         for other in links.others(vertex) {
             let is_in = pass.parts.contains(&self.part_of[other as usize]);

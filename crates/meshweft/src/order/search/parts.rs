@@ -3,7 +3,6 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize};
 
 use super::super::block_faces::{BlockEnds, BlockFaces, is_in_blocks, turned_from};
-use super::super::vertex_blocks::block_of;
 use super::border::{Border, BorderFace};
 use super::mask::Mask;
 use super::preset::preset;
@@ -14,7 +13,7 @@ use super::state::{CacheLimits, State};
 use crate::cache::CacheModel;
 use crate::faces::{Faces, turned};
 use crate::first_use::{Compact, FirstUse};
-use crate::index::index32;
+use crate::index::{block_of, index32};
 use crate::order::k_cache_reorder::KCacheReorder;
 use crate::order::polygons::polygon_of_each_face;
 use crate::order::target::{Effort, Target};

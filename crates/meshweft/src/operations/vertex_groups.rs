@@ -1,0 +1,193 @@
+//! Vertices that move together, because meshes share them.
+//!
+//! A group of more than 65,536 vertices is put in blocks of that many before faces are ordered, by the faces
+//! of all its members: these then are ordered block by block. Afterwards it is judged as a whole against
+//! the file, in whose numbers the caches that look at them may miss more or less.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use super::algorithm::Algorithm;
+use super::better::{better_vertex_order, is_gain};
+use super::counts::{Counts, VERTEX_SIZE};
+use super::improved::{FaceChange, Improved};
+use crate::cache;
+use crate::faces::Faces;
+use crate::files::MeshEntry;
+use crate::index::BLOCK;
+use crate::order::{first_use_in_blocks, vertex_fetch};
+use crate::parallel;
+use crate::permutation::VertexOrder;
+
+/// The members of each vertex group whose vertices may move.
+pub(super) fn movable_groups(entries: &[MeshEntry]) -> BTreeMap<usize, Vec<usize>> {
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (i, entry) in entries.iter().enumerate() {
+        groups.entry(entry.vertex_group).or_default().push(i);
+    }
+    groups.retain(|_, members| members.iter().all(|&i| entries[i].vertices_movable));
+    groups
+}
+
+/// The vertices of a group in the order of their first use by all its members, if that is worth it;
+/// the members then have the new numbers.
+pub(super) fn better_order_of_group(
+    members: &[usize],
+    meshes: &mut [Improved<'_>],
+    changes: &[FaceChange],
+) -> Option<VertexOrder> {
+    let vertex_count = meshes[members[0]].counts.vertices;
+    let faces_moved = members.iter().any(|&i| !changes[i].order.is_identity());
+    let all = faces_of_all(members, |i| &meshes[i].faces);
+    let order = better_vertex_order(Faces::of_checked(&all, vertex_count), faces_moved)?;
+    drop(all);
+    renumber(members, meshes, &order);
+    Some(order)
+}
+
+/// The faces of some meshes, one after the other.
+fn faces_of_all<'a>(
+    members: &[usize],
+    faces_of: impl Fn(usize) -> &'a [[u32; 3]],
+) -> Cow<'a, [[u32; 3]]> {
+    match members {
+        [only] => faces_of(*only).into(),
+        _ => {
+            let all = members.iter().flat_map(|&i| faces_of(i));
+            all.copied().collect()
+        }
+    }
+}
+
+fn renumber(members: &[usize], meshes: &mut [Improved<'_>], order: &VertexOrder) {
+    let old_to_new = order.permutation().old_to_new();
+    for &i in members {
+        meshes[i].renumber(&old_to_new);
+    }
+}
+
+/// Large groups with their vertices in blocks.
+pub(super) struct InBlocks {
+    orders: BTreeMap<usize, VertexOrder>,
+    /// The members of those groups whose vertices have new numbers.
+    entries: BTreeMap<usize, MeshEntry>,
+}
+
+impl InBlocks {
+    /// Time as [`vertex_fetch`], and a copy of the meshes of groups that are renumbered.
+    pub(super) fn new(entries: &[MeshEntry], groups: &BTreeMap<usize, Vec<usize>>) -> Self {
+        let vertex_count = |members: &[usize]| entries[members[0]].mesh.vertex_count();
+        let large = groups
+            .iter()
+            .filter(|(_, members)| vertex_count(members) > BLOCK);
+        let orders = parallel::map(large.collect(), |(&group, members)| {
+            let all = faces_of_all(members, |i| entries[i].mesh.faces());
+            let faces = Faces::of_checked(&all, vertex_count(members));
+            (group, vertex_fetch(faces))
+        });
+        let orders: BTreeMap<usize, VertexOrder> = orders.into_iter().collect();
+
+        let moved = orders.iter().filter(|(_, order)| !order.is_identity());
+        let renumbered = moved.flat_map(|(group, order)| {
+            let members = groups[group].iter();
+            members.map(|&i| {
+                let mut entry = entries[i].clone();
+                entry.apply_vertices(order);
+                (i, entry)
+            })
+        });
+        Self {
+            entries: renumbered.collect(),
+            orders,
+        }
+    }
+
+    /// The numbering of a large group.
+    pub(super) fn order(&self, group: usize) -> Option<&VertexOrder> {
+        self.orders.get(&group)
+    }
+
+    /// A mesh with its new numbers, if it has some.
+    pub(super) fn entry(&self, mesh: usize) -> Option<&MeshEntry> {
+        self.entries.get(&mesh)
+    }
+}
+
+/// A large group, its faces ordered, to be judged.
+pub(super) struct Judgement<'m, 'a> {
+    pub(super) members: &'m [usize],
+    /// All meshes as the file has them, and their counts.
+    pub(super) entries: &'a [MeshEntry],
+    pub(super) before: &'a [Counts],
+    pub(super) algorithm: &'a Algorithm,
+}
+
+impl<'a> Judgement<'_, 'a> {
+    /// What becomes of the vertices, which were put in `blocks`: they move by first use inside these, if
+    /// that and the orders of the faces are worth it; otherwise nothing in the group moves.
+    pub(super) fn settle(
+        &self,
+        blocks: &VertexOrder,
+        meshes: &mut [Improved<'a>],
+        changes: &mut [FaceChange],
+    ) -> Option<VertexOrder> {
+        let vertex_count = blocks.len();
+        let all = faces_of_all(self.members, |i| &meshes[i].faces);
+        let inside = first_use_in_blocks(Faces::of_checked(&all, vertex_count));
+        drop(all);
+        let order = blocks.then(&inside);
+
+        if !self.is_worth(&order, meshes, changes) {
+            for &i in self.members {
+                let reason = changes[i].reason.or_else(|| {
+                    let is_found = !changes[i].order.is_identity();
+                    is_found.then_some("the order found does not miss less")
+                });
+                changes[i] = FaceChange::none(&self.entries[i], reason);
+                meshes[i] = Improved {
+                    faces: Cow::Borrowed(self.entries[i].mesh.faces()),
+                    counts: self.before[i].clone(),
+                };
+            }
+            return None;
+        }
+        renumber(self.members, meshes, &inside);
+        Some(order).filter(|order| !order.is_identity())
+    }
+
+    /// Whether all members together cost less in their new numbers, or are fetched better.
+    ///
+    /// Orders of faces were judged mesh by mesh: where one is taken, the sum decides whether the numbers
+    /// cost other members more.
+    fn is_worth(
+        &self,
+        order: &VertexOrder,
+        meshes: &[Improved<'_>],
+        changes: &[FaceChange],
+    ) -> bool {
+        let target = self.algorithm.target();
+        let members = self.members.iter();
+        let before: u64 = members
+            .clone()
+            .map(|&i| self.before[i].cost_for(target))
+            .sum();
+        let after: u64 = members
+            .clone()
+            .map(|&i| meshes[i].counts.cost_for(target))
+            .sum();
+        if members.clone().any(|&i| !changes[i].order.is_identity()) {
+            return after < before || self.algorithm.allows_worse();
+        }
+
+        let fetches_less = || {
+            let all = faces_of_all(self.members, |i| self.entries[i].mesh.faces());
+            let renumbered = order.renumber(&all);
+            let [before, after] = [&*all, &renumbered].map(|faces| {
+                let faces = Faces::of_checked(faces, order.len());
+                cache::fetched(faces, VERTEX_SIZE)
+            });
+            is_gain(before, after)
+        };
+        !order.is_identity() && (is_gain(before, after) || after <= before && fetches_less())
+    }
+}
