@@ -37,8 +37,8 @@ enum Verb {
     /// Re-order the faces and vertices of a file and keep every other byte
     ///
     /// Faces are put in the order in which a vertex cache misses least, vertices in the order of
-    /// their first use. Nothing else in the file changes. A mesh whose order would not get better
-    /// is left as it is.
+    /// their first use, more than 65,536 in blocks of that many. Nothing else in the file changes. A mesh
+    /// whose order would not get better is left as it is.
     ///
     ///   meshweft optimize scene.glb -o ordered.glb
     ///   meshweft optimize scan.ply --in-place --cache nvidia --effort best --json

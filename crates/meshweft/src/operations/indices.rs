@@ -26,7 +26,8 @@ pub struct IndexOptions {
     pub budget: Budget,
     /// Forbids turning corners (provoking vertex, data on edges).
     pub keep_corners: bool,
-    /// Renumbers the vertices by first use. The caller then has to move every vertex buffer by
+    /// Renumbers the vertices by first use, more than 65,536 in blocks of that many, which the order of the
+    /// faces then keeps to. The caller then has to move every vertex buffer by
     /// [`Orders::vertices`].
     pub renumber_vertices: bool,
     /// Takes an order even if it misses more, unchecked.

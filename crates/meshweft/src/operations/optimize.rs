@@ -14,11 +14,12 @@ use crate::permutation::{FaceOrder, VertexOrder};
 use crate::progress::Progress;
 
 /// Puts the faces of a document in an order that misses less, and its vertices in the order of their
-/// first use.
+/// first use, those of a group of more than 65,536 in blocks
+/// ([`vertex_blocks`](crate::order::vertex_blocks())).
 ///
 /// A mesh or run whose order would not get better stays as it is: the misses of the target's caches are
 /// added up, and a gain of less than .5 % counts as none. Vertices stay where no faces moved and
-/// they would not be fetched better by as much. So a document that was optimised is not changed again,
+/// they would not be fetched better by as much; a group in blocks is judged as a whole. So a document that was optimised is not changed again,
 /// except after a run with a budget, a time limit, the faithful mode or [`Options::allow_worse`]: what
 /// is found for a mesh of up to 131,072 faces is ordered once more, and taken if that finds nothing;
 /// in larger ones a second run gains less than what counts. The document is changed in memory:

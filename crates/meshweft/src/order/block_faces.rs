@@ -6,8 +6,9 @@ use crate::index::{BLOCK, block_of, index32};
 use crate::permutation::Permutation;
 use crate::topology::rows;
 
-/// At most one face in so many may be across a border for the blocks to be worth keeping to.
-const FEW_ACROSS: usize = 20;
+/// At most one face in so many may be across a border for the blocks to be worth keeping to: of a large
+/// flat mesh in square blocks it is one in 128.
+const FEW_ACROSS: usize = 50;
 
 /// Faces sorted by their block.
 pub(super) struct BlockFaces {

@@ -58,7 +58,7 @@ impl Optimizer {
     /// - Larger caches than 128 vertices (controllable: 64) are searched as if they had 128 (64): an
     ///   order made for that is nearly as good in a larger cache.
     /// - More than 65,536 vertices that stand in blocks of that many, as
-    ///   [`vertex_blocks`](super::vertex_blocks()) numbers them (at most one face in 20 across a border):
+    ///   [`vertex_blocks`](super::vertex_blocks()) numbers them (at most one face in 50 across a border):
     ///   block by block. Universal: the faces across borders come last; `nvidia`: two at the end of a
     ///   batch; others: in the block with two of their vertices.
     /// - LRU: as for a FIFO cache of five eighths of the size; made for the whole size, an order
