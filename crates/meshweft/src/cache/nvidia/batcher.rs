@@ -1,7 +1,7 @@
 //! Primitives into batches.
 
 use super::setup::Setup;
-use crate::index::index32;
+use crate::index::{block_of, index32};
 
 /// Most primitives in a batch.
 pub(crate) const BATCH_FACES: u32 = 32;
@@ -11,12 +11,6 @@ pub(crate) const LANES: u32 = 32;
 pub(crate) const WINDOW: u32 = 42;
 /// More than the corners of a batch, so that a free entry is always near.
 const ENTRIES: usize = 256;
-
-/// The block of 65,536 vertices that a vertex stands in. The card forgets where it changes.
-#[inline]
-pub(crate) fn block_of(vertex: u32) -> u32 {
-    vertex >> 16
-}
 
 /// What is known of a vertex that was used in a batch.
 #[derive(Debug, Clone, Copy, Default)]

@@ -29,6 +29,6 @@ mod batcher;
 mod draw;
 mod setup;
 
-pub(crate) use batcher::{BATCH_FACES, Batcher, LANES, WINDOW, block_of};
+pub(crate) use batcher::{BATCH_FACES, Batcher, LANES, WINDOW};
 pub use draw::{Draw, DrawCounts, PrimitiveTopology, counts};
 pub(crate) use setup::Setup;

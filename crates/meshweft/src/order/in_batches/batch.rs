@@ -1,6 +1,7 @@
 //! The faces of one batch, their vertices numbered from 0.
 
-use crate::cache::nvidia::{BATCH_FACES, LANES, block_of};
+use crate::cache::nvidia::{BATCH_FACES, LANES};
+use crate::index::block_of;
 
 /// The FIFO cache that an order may be kept good for: the smallest that the universal target looks
 /// after.
