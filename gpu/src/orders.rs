@@ -4,10 +4,13 @@ use std::fmt;
 use std::str::FromStr;
 
 use meshweft::order::bogomjakov_gotsman::{LinearArrangement, RecursiveCut};
-use meshweft::order::{Effort, InBatches, Optimizer, Target, vertex_fetch};
+use meshweft::order::{Effort, InBatches, Optimizer, Target, vertex_blocks, vertex_fetch};
 use meshweft::{FaceOrder, Mesh, Permutation};
 
-/// A way to order the faces of a mesh. All but [`File`](Sequence::File) number the vertices by first use.
+/// A way to order the faces of a mesh.
+///
+/// meshoptimizer's orders, and a random one, number the vertices by first use; meshweft's do so in blocks of
+/// 65,536, cut first where there are more; [`File`](Sequence::File) leaves their numbers.
 ///
 /// Written and read as `file`, `random`, `meshopt`, `meshopt-strip`, `meshopt-fifo:16`,
 /// `recursive-cut`, `linear-arrangement`, or a target of meshweft: `universal`, `nvidia`, `fifo:16`, with
@@ -51,15 +54,27 @@ impl Order {
         if !self.in_batches {
             return ordered;
         }
-        // Where vertices are numbered by first use, few batches run across a border between blocks.
+        // In blocks, so that few batches run across a border between them.
+        let ordered = in_blocks(&ordered);
         let as_it_is = FaceOrder::identity(ordered.face_count());
         let order = InBatches::default().follow(&ordered, &as_it_is);
-        numbered(&ordered.with_face_order(&order))
+        in_blocks(&ordered.with_face_order(&order))
     }
 }
 
-/// The mesh with its vertices by first use.
-fn numbered(mesh: &Mesh) -> Mesh {
+/// The mesh with its vertices by first use, whatever block they stand in.
+fn by_first_use(mesh: &Mesh) -> Mesh {
+    let vertices = 0..u32::try_from(mesh.vertex_count()).expect("a mesh has no more");
+    let mut is_used = vec![false; mesh.vertex_count()];
+    // Unused vertices come last.
+    let uses = mesh.faces().iter().flatten().copied().chain(vertices);
+    let first = uses.filter(|&vertex| !std::mem::replace(&mut is_used[vertex as usize], true));
+    let order = Permutation::new(first.collect()).expect("each vertex once");
+    mesh.with_vertex_order(&order.into())
+}
+
+/// The mesh with its vertices in blocks of 65,536, inside a block by first use.
+fn in_blocks(mesh: &Mesh) -> Mesh {
     mesh.with_vertex_order(&vertex_fetch(mesh))
 }
 
@@ -80,11 +95,12 @@ impl Sequence {
                     effort,
                     ..Optimizer::default()
                 };
-                optimizer.face_order(mesh)
+                let mesh = mesh.with_vertex_order(&vertex_blocks(mesh));
+                return in_blocks(&mesh.with_face_order(&optimizer.face_order(&mesh)));
             }
-            _ => return numbered(&self.by_meshopt(mesh)),
+            _ => return by_first_use(&self.by_meshopt(mesh)),
         };
-        numbered(&mesh.with_face_order(&order))
+        by_first_use(&mesh.with_face_order(&order))
     }
 
     fn by_meshopt(self, mesh: &Mesh) -> Mesh {
