@@ -127,9 +127,9 @@ pub fn needed_data_folder() -> Result<PathBuf, String> {
 /// The figure that a cache is judged by: misses per vertex of a GPU, misses per face of any other.
 #[must_use]
 pub fn figure(faces: &[[u32; 3]], model: CacheModel) -> f64 {
-    match model {
-        CacheModel::Batch(_) => cache::atvr(faces, model),
-        _ => cache::acmr(faces, model),
+    match model.is_gpu() {
+        true => cache::atvr(faces, model),
+        false => cache::acmr(faces, model),
     }
 }
 

@@ -70,7 +70,9 @@ fn run() -> Result<(), String> {
     }
     println!();
     println!("K: misses per face (ACMR) of a FIFO cache. NVIDIA, AMD, Intel: misses per vertex");
-    println!("(ATVR) of the batch models that meshoptimizer's analyzer is run with. Time on one");
+    println!(
+        "(ATVR): NVIDIA as probed on cards, the others as meshoptimizer's analyzer has them. Time on one"
+    );
     println!("thread, as a multiple of `meshopt_optimizeVertexCache`'s on the same mesh.");
     Ok(())
 }

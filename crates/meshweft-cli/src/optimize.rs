@@ -127,10 +127,9 @@ fn text(report: &OptimizeReport) -> String {
 
     // Caches: those that were ordered for.
     let target = report.options.target;
-    let is_gpu = |model: &CacheModel| matches!(model, CacheModel::Batch(_) | CacheModel::Nvidia);
     let ordered_for = |model: &CacheModel| target.models().contains(model);
     let caches = before.acmr().zip(after.acmr());
-    let caches = caches.filter(|((model, _), _)| !is_gpu(model) && ordered_for(model));
+    let caches = caches.filter(|((model, _), _)| !model.is_gpu() && ordered_for(model));
     let caches = caches.map(|((model, a), (_, b))| format!("{model} {a:.4} -> {b:.4}"));
     let caches: Vec<_> = caches.collect();
     if !caches.is_empty() {
@@ -139,7 +138,7 @@ fn text(report: &OptimizeReport) -> String {
 
     // GPUs: all.
     let gpus = before.atvr().zip(after.atvr());
-    let gpus = gpus.filter(|((model, _), _)| is_gpu(model));
+    let gpus = gpus.filter(|((model, _), _)| model.is_gpu());
     let gpus = gpus.map(|((model, a), (_, b))| format!("{model} {a:.3} -> {b:.3}"));
     let gpus: Vec<_> = gpus.collect();
     text += &format!("\n  transforms per vertex: {}", gpus.join(", "));

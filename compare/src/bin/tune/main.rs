@@ -131,8 +131,7 @@ impl Arguments {
             }
         }
 
-        let is_batch = |model: &CacheModel| matches!(model, CacheModel::Batch(_));
-        let is_greedy = !parsed.target.models().iter().any(is_batch);
+        let is_greedy = !parsed.target.models().iter().any(CacheModel::is_gpu);
         if parsed.effort == Effort::Fast && is_greedy {
             let target = parsed.target;
             return Err(format!(

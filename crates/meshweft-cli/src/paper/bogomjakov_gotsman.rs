@@ -266,9 +266,9 @@ fn universality(meshes: &[Mesh]) -> Figure {
         for mesh in meshes {
             let faces = ordered(method, mesh);
             for (sum, model) in figures.iter_mut().zip(Target::UNIVERSAL) {
-                let figure = match model {
-                    CacheModel::Batch(_) => cache::atvr(&faces, model),
-                    _ => cache::acmr(&faces, model),
+                let figure = match model.is_gpu() {
+                    true => cache::atvr(&faces, model),
+                    false => cache::acmr(&faces, model),
                 };
                 *sum += figure / meshes.len() as f64;
             }

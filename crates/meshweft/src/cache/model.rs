@@ -150,6 +150,12 @@ impl CacheModel {
         Self::Controllable { size }
     }
 
+    /// Whether it is the model of a GPU, which collects faces in batches; misses are then given per vertex.
+    #[must_use]
+    pub const fn is_gpu(&self) -> bool {
+        matches!(self, Self::Batch(_) | Self::Nvidia)
+    }
+
     /// How many vertices it holds.
     #[must_use]
     pub const fn size(&self) -> u32 {
