@@ -1,7 +1,7 @@
 //! The faces of one batch, their vertices numbered from 0.
 
 use crate::cache::nvidia::{BATCH_FACES, LANES};
-use crate::index::block_of;
+use crate::index::{block_of, index32};
 
 /// The FIFO cache that an order may be kept good for: the smallest that the universal target looks
 /// after.
@@ -21,12 +21,12 @@ pub(super) struct Batch {
     len: usize,
     /// How many faces are drawn together from each face on; 0 for those that come along.
     together: [u8; MOST_FACES],
+    /// The faces that begin a polygon.
+    firsts: u32,
     /// How many of the first faces stay first: they finish a polygon of the batch before.
     fixed: usize,
     /// The faces at each vertex.
     faces_at: [u32; MOST_VERTICES],
-    /// The vertex of each number.
-    vertices: [u32; MOST_VERTICES],
     vertex_count: usize,
     /// By a hash of the vertex: the fill it belongs to, the vertex and its number.
     numbers: [(u32, u32, u8); ENTRIES],
@@ -39,9 +39,9 @@ impl Default for Batch {
             corners: [[0; 3]; MOST_FACES],
             len: 0,
             together: [0; MOST_FACES],
+            firsts: 0,
             fixed: 0,
             faces_at: [0; MOST_VERTICES],
-            vertices: [0; MOST_VERTICES],
             vertex_count: 0,
             numbers: [(0, 0, 0); ENTRIES],
             fill: 0,
@@ -74,6 +74,8 @@ impl Batch {
             let (before, polygons) = polygons.split_at(start);
             self.keep_together(before.last(), polygons);
         }
+        let firsts = (0..self.len).filter(|&face| self.together[face] != 0);
+        self.firsts = firsts.fold(0, |set, face| set | 1 << face);
     }
 
     fn clear(&mut self) {
@@ -110,17 +112,10 @@ impl Batch {
     /// The number of a vertex, a new one if it has none; `None` if the batch has no room for it.
     #[inline]
     fn number(&mut self, vertex: u32) -> Option<u8> {
-        // Fibonacci hashing: the top 7 bits.
-        let mut at = (vertex.wrapping_mul(0x9e37_79b9) >> 25) as usize;
-        loop {
-            let (fill, known, number) = self.numbers[at];
-            if fill != self.fill {
-                break;
-            }
-            if known == vertex {
-                return Some(number);
-            }
-            at = (at + 1) % ENTRIES;
+        let at = self.place(vertex);
+        let (fill, _, number) = self.numbers[at];
+        if fill == self.fill {
+            return Some(number);
         }
         if self.vertex_count == MOST_VERTICES {
             return None;
@@ -128,10 +123,23 @@ impl Batch {
         #[expect(clippy::cast_possible_truncation, reason = "at most 32")]
         let number = self.vertex_count as u8;
         self.numbers[at] = (self.fill, vertex, number);
-        self.vertices[self.vertex_count] = vertex;
         self.faces_at[self.vertex_count] = 0;
         self.vertex_count += 1;
         Some(number)
+    }
+
+    /// The entry of a vertex, or a free one.
+    #[inline]
+    fn place(&self, vertex: u32) -> usize {
+        // Fibonacci hashing: the top 7 bits.
+        let mut at = (vertex.wrapping_mul(0x9e37_79b9) >> 25) as usize;
+        loop {
+            let (fill, known, _) = self.numbers[at];
+            if fill != self.fill || known == vertex {
+                return at;
+            }
+            at = (at + 1) % ENTRIES;
+        }
     }
 
     /// Marks the faces of each polygon as drawn together, and drops a last one that is not whole; `before`
@@ -180,9 +188,11 @@ impl Batch {
             .sum()
     }
 
-    /// The vertex that is number `number` in the batch.
-    pub(super) fn vertices(&self) -> &[u32] {
-        &self.vertices[..self.vertex_count]
+    /// The number of a vertex in the batch.
+    #[inline]
+    pub(super) fn number_of(&self, vertex: u32) -> Option<usize> {
+        let (fill, _, number) = self.numbers[self.place(vertex)];
+        (fill == self.fill).then_some(usize::from(number))
     }
 
     /// The numbers of a face's vertices.
@@ -210,9 +220,15 @@ impl Batch {
     }
 
     /// The faces that begin a polygon.
+    #[inline]
     pub(super) fn firsts(&self) -> u32 {
-        let firsts = (0..self.len).filter(|&face| self.together[face] != 0);
-        firsts.fold(0, |set, face| set | 1 << face)
+        self.firsts
+    }
+
+    /// How many faces it has.
+    #[inline]
+    pub(super) fn face_count(&self) -> u32 {
+        index32(self.len)
     }
 }
 

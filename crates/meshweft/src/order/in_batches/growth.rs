@@ -12,18 +12,22 @@ pub(super) struct Cost {
     pub(super) weighed: u32,
 }
 
+/// So few candidates are looked at one by one.
+const FEW: u32 = 4;
 /// A setup cycle in [`Cost::weighed`].
 const CYCLE: u32 = 64;
 
-/// Draws the faces of batches one by one and counts.
+/// Draws the faces of batches one by one and counts; `BESIDE`: misses of the FIFO cache too.
 #[derive(Debug, Clone)]
-pub(super) struct Grower {
+pub(super) struct Grower<const BESIDE: bool> {
     /// How many of the next faces are candidates.
     reach: u32,
     /// What a miss of the FIFO cache weighs.
     beside: u32,
-    /// The vertices that the FIFO cache took in last, the latest last.
+    /// The vertices that the FIFO cache took in last, in a ring.
     pushed: [u32; BESIDE_SIZE as usize],
+    /// The place of the oldest of them.
+    oldest: usize,
     /// The state at the start of a batch.
     fresh: BatchState,
     state: BatchState,
@@ -121,12 +125,13 @@ impl BatchState {
     }
 }
 
-impl Grower {
+impl<const BESIDE: bool> Grower<BESIDE> {
     pub(super) fn new(reach: u32, beside: u32) -> Self {
         Self {
             reach,
             beside,
             pushed: [u32::MAX; BESIDE_SIZE as usize],
+            oldest: 0,
             fresh: BatchState::default(),
             state: BatchState::default(),
             order: [0; MOST_FACES],
@@ -137,13 +142,13 @@ impl Grower {
     /// Draws a face in the FIFO cache for good.
     #[inline]
     pub(super) fn passed(&mut self, face: [u32; 3]) {
-        if self.beside == 0 {
+        if !BESIDE {
             return;
         }
         for vertex in face {
             if !self.pushed.contains(&vertex) {
-                self.pushed.rotate_left(1);
-                self.pushed[BESIDE_SIZE as usize - 1] = vertex;
+                self.pushed[self.oldest] = vertex;
+                self.oldest = (self.oldest + 1) % self.pushed.len();
             }
         }
     }
@@ -165,18 +170,15 @@ impl Grower {
             undrawn: all(batch.len()),
             ..BatchState::default()
         };
-        for (number, (state, vertex)) in self
-            .fresh
-            .vertices
-            .iter_mut()
-            .zip(batch.vertices())
-            .enumerate()
-        {
+        for (number, state) in self.fresh.vertices.iter_mut().enumerate() {
             state.left = ones(batch.faces_at(number));
-            if self.beside != 0 {
-                let entered = (1..FIRST_PUSH).zip(&self.pushed);
-                let found = entered.rev().find(|(_, pushed)| *pushed == vertex);
-                state.entered = found.map_or(0, |(entered, _)| entered);
+        }
+        if BESIDE {
+            let (newer, older) = self.pushed.split_at(self.oldest);
+            for (entered, &vertex) in (1..).zip(older.iter().chain(newer)) {
+                if let Some(number) = batch.number_of(vertex) {
+                    self.fresh.vertices[number].entered = entered;
+                }
             }
         }
     }
@@ -193,12 +195,12 @@ impl Grower {
         // One cycle a face, and two more for the first.
         let floor = Cost {
             lost: 0,
-            weighed: CYCLE * (all(batch.len()).count_ones() + 2),
+            weighed: CYCLE * (batch.face_count() + 2),
         };
         let mut least = before;
         let mut firsts = lowest(batch.firsts(), self.reach);
         for _ in 0..starts {
-            if firsts == 0 || (self.beside == 0 && least <= floor) {
+            if firsts == 0 || (!BESIDE && least <= floor) {
                 break;
             }
 
@@ -225,7 +227,6 @@ impl Grower {
     /// `least` any more.
     fn grow(&mut self, batch: &Batch, start: usize, least: Cost) -> Cost {
         self.state.clone_from(&self.fresh);
-        let firsts = batch.firsts();
         for face in 0..batch.fixed() {
             self.draw(batch, face);
         }
@@ -236,13 +237,13 @@ impl Grower {
             }
             let state = &self.state;
             let at_least = Cost {
-                weighed: state.cost.weighed + CYCLE * state.undrawn.count_ones(),
+                weighed: state.cost.weighed + CYCLE * (batch.face_count() - u32::from(state.drawn)),
                 ..state.cost
             };
             if state.undrawn == 0 || at_least >= least {
                 return at_least;
             }
-            next = self.next(batch, firsts);
+            next = self.next(batch, batch.firsts());
         }
     }
 
@@ -250,29 +251,44 @@ impl Grower {
     #[inline]
     fn next(&self, batch: &Batch, firsts: u32) -> usize {
         let open = lowest(self.state.undrawn & firsts, self.reach);
+        let candidates = match self.reach {
+            ..=FEW => open,
+            _ => self.with_most_kept(batch, open),
+        };
 
-        // Faces with one and with two corners in the slots: of these the third costs no cycle.
+        // The best of them, ties to the first; of a few, how many corners are kept comes before all.
+        let mut best = (i32::MIN, 0);
+        for face in bits(candidates) {
+            let mut value = self.value(batch, face);
+            if self.reach <= FEW {
+                let kept = self.state.setup.kept();
+                let missing = batch.lanes(face).map(|lane| !(kept >> lane) & 1);
+                let misses: u32 = missing.iter().sum();
+                value -= 1000 * misses.max(1).cast_signed();
+            }
+            if value > best.0 {
+                best = (value, face);
+            }
+        }
+        best.1
+    }
+
+    /// Those of the faces that have most corners in the slots, where two are as good as three: the
+    /// third costs no cycle.
+    #[inline]
+    fn with_most_kept(&self, batch: &Batch, open: u32) -> u32 {
+        // Faces with one and with two corners in the slots.
         let (mut one, mut two) = (0, 0);
         for vertex in bits(self.state.setup.kept()) {
             let faces = batch.faces_at(vertex);
             two |= one & faces;
             one |= faces;
         }
-        let candidates = match (open & two, open & one) {
+        match (open & two, open & one) {
             (0, 0) => open,
             (0, one) => one,
             (two, _) => two,
-        };
-
-        // The best of them, ties to the first.
-        let mut best = (i32::MIN, 0);
-        for face in bits(candidates) {
-            let value = self.value(batch, face);
-            if value > best.0 {
-                best = (value, face);
-            }
         }
-        best.1
     }
 
     /// How good it is to draw a face next: vertices that are finished or were used, and above all those
@@ -287,7 +303,7 @@ impl Grower {
             let since = now.wrapping_sub(vertex.last);
             value += i32::from(OF_LEFT[usize::from(vertex.left) % OF_LEFT.len()]);
             value += i32::from(OF_USE[usize::from(since)]);
-            if self.beside != 0 && state.is_outside(vertex) {
+            if BESIDE && state.is_outside(vertex) {
                 value -= self.beside.cast_signed() * 25 / 64;
             }
         }
@@ -307,7 +323,7 @@ impl Grower {
             let is_lost = u32::from(since) > WINDOW && since < UNUSED;
             state.cost.lost += u32::from(is_lost);
 
-            let enters = self.beside != 0 && state.is_outside(&vertex);
+            let enters = BESIDE && state.is_outside(&vertex);
             if enters {
                 state.cost.weighed += self.beside;
             }
@@ -337,7 +353,7 @@ fn ones(set: u32) -> u8 {
 /// The lowest `count` numbers of a set.
 #[inline]
 fn lowest(set: u32, count: u32) -> u32 {
-    if count >= set.count_ones() {
+    if count >= u32::BITS {
         return set;
     }
     let rest = (0..count).fold(set, |rest, _| rest & rest.wrapping_sub(1));

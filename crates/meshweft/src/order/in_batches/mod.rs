@@ -105,17 +105,31 @@ impl InBatches {
             order.new_to_old().iter().map(first).collect::<Vec<u32>>()
         });
 
+        let found = match self.beside {
+            0 => self.found::<false>(&ordered, polygons.as_deref()),
+            _ => self.found::<true>(&ordered, polygons.as_deref()),
+        };
+        found.map_or_else(|| order.clone(), |found| order.then(&found))
+    }
+
+    /// An order of faces that are `ordered` already, if it has no more invocations; `polygons` names the
+    /// polygon of each.
+    fn found<const BESIDE: bool>(
+        &self,
+        ordered: &[[u32; 3]],
+        polygons: Option<&[u32]>,
+    ) -> Option<FaceOrder> {
         // A batch that loses nothing any more may hold more faces than before. Those after it then begin
         // elsewhere, and may by bad luck need more vertices: if so, such batches stay as they are.
-        let invocations = LazyCell::new(|| nvidia::counts(&ordered).invocations);
+        let invocations = LazyCell::new(|| nvidia::counts(ordered).invocations);
         for extends in [true, false] {
-            let mut pass = Pass::new(*self, &ordered, polygons.as_deref());
+            let mut pass = Pass::<BESIDE>::new(*self, ordered, polygons);
             let is_cut_anew = pass.run(extends);
             if !is_cut_anew || pass.card.invocations() <= *invocations {
-                return order.then(&Permutation::from_algorithm(pass.new_to_old).into());
+                return Some(Permutation::from_algorithm(pass.new_to_old).into());
             }
         }
-        order.clone()
+        None
     }
 }
 
@@ -150,7 +164,7 @@ pub(in crate::order) fn finish(
 }
 
 /// The order of all faces, while it is made.
-struct Pass<'a> {
+struct Pass<'a, const BESIDE: bool> {
     settings: InBatches,
     /// In the order that is followed.
     faces: &'a [[u32; 3]],
@@ -159,12 +173,12 @@ struct Pass<'a> {
     /// What the card has drawn: the faces in their new order.
     card: Batcher,
     batch: Batch,
-    grower: Grower,
+    grower: Grower<BESIDE>,
     new_to_old: Vec<u32>,
     is_cut_anew: bool,
 }
 
-impl<'a> Pass<'a> {
+impl<'a, const BESIDE: bool> Pass<'a, BESIDE> {
     fn new(settings: InBatches, faces: &'a [[u32; 3]], polygons: Option<&'a [u32]>) -> Self {
         Self {
             settings,
