@@ -121,15 +121,15 @@ impl std::error::Error for ParseTargetError {}
 ///
 /// | target | `Best` | `Max` |
 /// |---|--:|--:|
-/// | universal | 5 | 25 |
+/// | universal, NVIDIA | 4 to 5 | 25 |
 /// | FIFO, LRU | 21 to 23 | 310 to 380 |
 /// | controllable | 13 to 15 | 200 to 240 |
-/// | GPU batches | 11 to 23 | 155 to 390 |
+/// | other GPUs | 11 to 23 | 155 to 390 |
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 #[non_exhaustive]
 pub enum Effort {
-    /// One greedy pass; for the universal target the best of three continuations, which takes about
-    /// six times as long.
+    /// One greedy pass; for the universal target and NVIDIA the best of three continuations, which takes
+    /// about six times as long.
     #[default]
     Fast,
     /// A search.

@@ -184,14 +184,14 @@ impl<const BESIDE: bool> Grower<BESIDE> {
     }
 
     /// The best order found: as the batch stands, which costs `before`, or grown from one of the first
-    /// `starts` faces with the fewest neighbours, of those that may start.
+    /// `starts` faces with the fewest neighbours, of those that may start; and its cost.
     pub(super) fn best(
         &mut self,
         batch: &Batch,
         before: Cost,
         starts: u32,
         may_start: impl Fn(usize) -> bool,
-    ) -> [u8; MOST_FACES] {
+    ) -> ([u8; MOST_FACES], Cost) {
         // One cycle a face, and two more for the first.
         let floor = Cost {
             lost: 0,
@@ -220,7 +220,7 @@ impl<const BESIDE: bool> Grower<BESIDE> {
                 self.best = self.order;
             }
         }
-        self.best
+        (self.best, least)
     }
 
     /// What an order costs that starts with `start`; it is given up where it cannot cost less than

@@ -24,7 +24,7 @@ use crate::order::target::{Effort, Target};
 use crate::order::turn_corners::turn_corners;
 use crate::permutation::{FaceOrder, Permutation};
 pub(in crate::order) use batch::BESIDE_SIZE;
-use batch::Batch;
+use batch::{Batch, MOST_FACES};
 use growth::Grower;
 
 /// The pass: how much it tries, and what else it looks after.
@@ -125,7 +125,7 @@ impl InBatches {
         for extends in [true, false] {
             let mut pass = Pass::<BESIDE>::new(*self, ordered, polygons);
             let is_cut_anew = pass.run(extends);
-            if !is_cut_anew || pass.card.invocations() <= *invocations {
+            if !is_cut_anew || pass.invocations() <= *invocations {
                 return Some(Permutation::from_algorithm(pass.new_to_old).into());
             }
         }
@@ -170,8 +170,10 @@ struct Pass<'a, const BESIDE: bool> {
     faces: &'a [[u32; 3]],
     /// The polygon of each of them, where polygons stay whole.
     polygons: Option<&'a [u32]>,
-    /// What the card has drawn: the faces in their new order.
+    /// What the card has drawn: the faces in their new order, without batches that are full.
     card: Batcher,
+    /// The invocations of these.
+    in_full_batches: u64,
     batch: Batch,
     grower: Grower<BESIDE>,
     new_to_old: Vec<u32>,
@@ -185,6 +187,7 @@ impl<'a, const BESIDE: bool> Pass<'a, BESIDE> {
             faces,
             polygons,
             card: Batcher::new(),
+            in_full_batches: 0,
             batch: Batch::default(),
             grower: Grower::new(settings.reach, settings.beside),
             new_to_old: Vec::with_capacity(faces.len()),
@@ -229,16 +232,38 @@ impl<'a, const BESIDE: bool> Pass<'a, BESIDE> {
         let is_free = card.primitives() == 0 || self.batch.fixed() > 0;
         let may_start = |face: usize| is_free || !card.fits(self.faces[start + face]);
         let starts = self.settings.starts;
-        let order = self.grower.best(&self.batch, before, starts, may_start);
-        for &face in &order[..self.batch.len()] {
-            self.draw(start + usize::from(face));
+        let (order, cost) = self.grower.best(&self.batch, before, starts, may_start);
+        let order = &order[..self.batch.len()];
+
+        // A full batch is what it costs; the card need not draw it to know.
+        let lanes = cost.lost + self.batch.vertex_count();
+        if order.len() == MOST_FACES && lanes <= LANES {
+            self.card.close();
+            self.in_full_batches += u64::from(lanes);
+            for &face in order {
+                self.pass(start + usize::from(face));
+            }
+        } else {
+            for &face in order {
+                self.draw(start + usize::from(face));
+            }
         }
         true
+    }
+
+    /// Invocations so far.
+    fn invocations(&self) -> u64 {
+        self.card.invocations() + self.in_full_batches
     }
 
     /// Draws a face.
     fn draw(&mut self, face: usize) {
         self.card.draw(&self.faces[face], 0);
+        self.pass(face);
+    }
+
+    /// Notes a face that the card draws next.
+    fn pass(&mut self, face: usize) {
         self.grower.passed(self.faces[face]);
         self.new_to_old.push(index32(face));
     }

@@ -182,3 +182,16 @@ fn a_fifo_cache_beside_is_looked_after() {
     let misses = |faces: &[[u32; 3]]| cache::misses(faces, CacheModel::fifo(BESIDE_SIZE));
     assert_eq!(misses(&order.apply(&strip)), misses(&strip));
 }
+
+/// What the pass counts by itself is what the card counts.
+#[test]
+fn invocations_are_known_without_drawing_full_batches() {
+    for case in 0..2000 {
+        let faces = soup(case);
+        let mut pass = Pass::<false>::new(InBatches::ALONE, &faces, None);
+        pass.run(true);
+        let order = Permutation::new(pass.new_to_old.clone()).unwrap();
+        let counted = nvidia::counts(&order.apply(&faces)).invocations;
+        assert_eq!(pass.invocations(), counted, "case {case}");
+    }
+}

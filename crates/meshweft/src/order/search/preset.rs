@@ -197,7 +197,11 @@ fn batches(batch: BatchModel, effort: Effort) -> Settings {
                 face: fixed(0.156),
                 age: fixed(-0.0143),
             },
-            horizon(effort, 50, 60),
+            Horizon {
+                runs: 3,
+                commit: 16,
+                ..horizon(effort, 32, 60)
+            },
         ),
         // More continuations gain little: four times as many .5 %.
         _ => (
