@@ -241,7 +241,7 @@ impl MeshEntry {
 
     /// As [`apply_vertices`](Self::apply_vertices), of an order whose inverse is known: of many entries that
     /// share their vertices, each takes as long as it has faces.
-    pub(super) fn renumber_vertices(&mut self, old_to_new: &[u32]) {
+    pub(crate) fn renumber_vertices(&mut self, old_to_new: &[u32]) {
         self.mesh.renumber_faces(old_to_new);
     }
 }

@@ -89,10 +89,10 @@ impl InBlocks {
 
         let moved = orders.iter().filter(|(_, order)| !order.is_identity());
         let renumbered = moved.flat_map(|(group, order)| {
-            let members = groups[group].iter();
-            members.map(|&i| {
+            let (members, old_to_new) = (groups[group].iter(), order.permutation().old_to_new());
+            members.map(move |&i| {
                 let mut entry = entries[i].clone();
-                entry.apply_vertices(order);
+                entry.renumber_vertices(&old_to_new);
                 (i, entry)
             })
         });
