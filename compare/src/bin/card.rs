@@ -22,19 +22,17 @@ fn main() -> ExitCode {
     compare::exit_code(run())
 }
 
-/// The FIFO caches and the models of other GPUs that stand beside the card.
-const BESIDE: [CacheModel; 9] = [
-    CacheModel::fifo(10),
-    CacheModel::fifo(12),
-    CacheModel::fifo(16),
-    CacheModel::fifo(24),
-    CacheModel::fifo(32),
-    CacheModel::fifo(64),
-    CacheModel::MESHOPT_NVIDIA,
-    CacheModel::AMD,
-    CacheModel::INTEL,
-];
+/// The other caches that an order is looked at in: those of the universal target, with meshoptimizer's
+/// model of NVIDIA for the card's own.
+fn other_caches() -> [CacheModel; OTHERS] {
+    Target::UNIVERSAL.map(|model| match model {
+        CacheModel::Nvidia => CacheModel::MESHOPT_NVIDIA,
+        model => model,
+    })
+}
 
+const OTHERS: usize = Target::UNIVERSAL.len();
+/// Figures of the card.
 const CARD: usize = 4;
 
 fn run() -> Result<(), String> {
@@ -78,9 +76,9 @@ fn run() -> Result<(), String> {
     println!(
         "| mesh | order | invocations a vertex | warps over floor | distinct a vertex | cycles a face | 10 | 12 | 16 | 24 | 32 | 64 | meshopt's NVIDIA | AMD | Intel | time |"
     );
-    println!("|---|---|{}", "--:|".repeat(CARD + BESIDE.len() + 1));
+    println!("|---|---|{}", "--:|".repeat(CARD + OTHERS + 1));
     let orders = orders(most);
-    let mut logs = vec![[0.0; CARD + BESIDE.len() + 1]; orders.len()];
+    let mut logs = vec![[0.0; CARD + OTHERS + 1]; orders.len()];
     for (name, mesh) in &meshes {
         let (meshopt, vcache) = timed(|| Meshopt::VertexCache.ordered(mesh));
         let vcache =
@@ -104,19 +102,19 @@ fn run() -> Result<(), String> {
     Ok(())
 }
 
-fn row(vertex_count: usize, faces: &[[u32; 3]], time: f64) -> [f64; CARD + BESIDE.len() + 1] {
+fn row(vertex_count: usize, faces: &[[u32; 3]], time: f64) -> [f64; CARD + OTHERS + 1] {
     let mesh = Mesh::connectivity_only(vertex_count, faces.to_vec()).expect("indices in range");
     let counts = nvidia::counts(&mesh);
     let report = meshweft::cache::report(&mesh, CacheModel::Nvidia);
-    let mut row = [0.0; CARD + BESIDE.len() + 1];
+    let mut row = [0.0; CARD + OTHERS + 1];
     row[0] = report.atvr();
     row[1] = counts.warps_over_floor();
     row[2] = counts.distinct_vertices as f64 / report.used_vertices as f64;
     row[3] = counts.setup_cycles as f64 / faces.len() as f64;
-    for (cell, model) in row[CARD..].iter_mut().zip(BESIDE) {
+    for (cell, model) in row[CARD..].iter_mut().zip(other_caches()) {
         *cell = compare::figure(faces, model);
     }
-    row[CARD + BESIDE.len()] = time;
+    row[CARD + OTHERS] = time;
     row
 }
 

@@ -1,5 +1,5 @@
 //! Finds out how a card collects vertices: draws that differ in one thing each, every invocation written
-//! down, and the rule's numbers fitted anew.
+//! down, and the rule's numbers fitted again.
 //!
 //! `families` has the draws, `fit` the search for the numbers, `cycles` what faces cost.
 
@@ -52,7 +52,7 @@ pub fn run(renderer: &Renderer<'_>) -> Result<Value, GpuError> {
     differences(Model::of(renderer.gpu().card()).0, &observed);
     let contents = contents(&observed);
 
-    // Fit the rule anew.
+    // Fit the rule again.
     let fitted = match Model::of(renderer.gpu().card()) {
         (Model::Lavapipe, true) => {
             println!("batches, fitted: not tried, as this renderer has none");

@@ -41,7 +41,7 @@ pub(super) struct FifoLimits {
 }
 
 impl FifoLimits {
-    /// `None` if it is no FIFO cache, or has larger numbers than are read from text.
+    /// `None` if it is not a FIFO cache, or has larger numbers than are read from text.
     pub(super) fn of(model: CacheModel) -> Option<Self> {
         let batch = match model {
             CacheModel::Fifo { size } => BatchModel::new(size, 0, 0),
@@ -131,7 +131,7 @@ fn mask(is_so: bool) -> i32 {
     -i32::from(is_so)
 }
 
-/// The numbers `set` where `mask` is set, `clear` elsewhere: by bits, so that it is no branch.
+/// The numbers `set` where `mask` is set, `clear` elsewhere: by bits, without a branch.
 #[inline]
 fn where_set(mask: Lanes, set: Lanes, clear: Lanes) -> Lanes {
     each(|lane| (set[lane] & mask[lane]) | (clear[lane] & !mask[lane]))
