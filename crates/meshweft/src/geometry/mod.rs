@@ -1,7 +1,14 @@
-//! Positions and directions in space, as plain arrays.
+//! Positions and directions in space, as plain arrays; how far surfaces are from each other.
 
+mod deviation;
+mod double;
 mod normals;
+mod samples;
+mod surface;
+mod triangle;
 mod vector;
 
+pub use deviation::{Deviation, Distances, deviation};
 pub use normals::vertex_normals;
+pub use surface::{Nearest, Surface};
 pub use vector::{cross, dot, normalized, sub};
