@@ -241,6 +241,24 @@ mod tests {
         assert_eq!(acmr(&faces, CacheModel::fifo(4)), 24.0 / 18.0);
     }
 
+    /// Bogomjakov & Gotsman 2002, doi:10.1111/1467-8659.00573, Fig. 1: 25 and 14 misses are printed.
+    #[test]
+    fn a_printed_sequence_has_the_printed_misses() {
+        #[rustfmt::skip]
+        let faces = [
+            [1, 2, 4], [1, 4, 5], [4, 5, 14], [2, 3, 4], [3, 4, 12], [3, 11, 12], [9, 11, 12],
+            [9, 10, 11], [7, 9, 13], [7, 8, 9], [6, 7, 13], [6, 13, 14], [9, 12, 13], [4, 12, 14],
+            [12, 13, 14], [5, 6, 14],
+        ];
+        assert_eq!(misses(&faces, CacheModel::fifo(4)), 25);
+        assert_eq!(misses(&faces, CacheModel::fifo(16)), 14);
+        assert_eq!(format!("{:.2}", acmr(&faces, CacheModel::fifo(4))), "1.56");
+        assert_eq!(
+            format!("{:.3}", acmr(&faces, CacheModel::fifo(16))),
+            "0.875"
+        );
+    }
+
     #[test]
     fn no_faces_are_no_misses() {
         for model in [
