@@ -60,6 +60,7 @@ mod parallel;
 pub mod partition;
 mod permutation;
 mod progress;
+pub mod progressive;
 mod random;
 pub mod topology;
 

@@ -73,6 +73,12 @@ impl<T> Rows<T> {
         &self.entries[self.starts[row] as usize..self.starts[row + 1] as usize]
     }
 
+    /// How many entries the rows before this one have; of the number of rows, how many there are.
+    #[inline]
+    pub(crate) fn start(&self, row: usize) -> usize {
+        self.starts[row] as usize
+    }
+
     /// All rows, one after the other, to be changed in place.
     pub(crate) fn rows_mut(&mut self) -> impl Iterator<Item = &mut [T]> {
         let mut rest = self.entries.as_mut_slice();

@@ -7,7 +7,7 @@ use crate::sources::Sources;
 
 /// The rooms from the ground up, with the groups of rooms that each may name beside itself: only
 /// such as stand above it in this list, so that every arrow points one way.
-const ROOMS: [(&str, &[&[&str]]); 18] = [
+const ROOMS: [(&str, &[&[&str]]); 19] = [
     ("error", &[]),
     ("index", &[&["error"]]),
     ("limits", &[BOUNDS]),
@@ -25,12 +25,19 @@ const ROOMS: [(&str, &[&[&str]]); 18] = [
     // What a cache does is known to those who order, not the other way round.
     ("cache", &[GROUND, &["faces", "permutation", "topology"]]),
     ("order", &[GROUND, VALUES, ALGORITHMS]),
+    // Its sequences start from orders.
+    ("progressive", &[GROUND, VALUES, ALGORITHMS, &["order"]]),
     // Readers and writers know no algorithm, and no algorithm knows them.
     ("files", &[GROUND, VALUES]),
     // The only place that joins both.
     (
         "operations",
-        &[GROUND, VALUES, ALGORITHMS, &["order", "files"]],
+        &[
+            GROUND,
+            VALUES,
+            ALGORITHMS,
+            &["order", "progressive", "files"],
+        ],
     ),
 ];
 

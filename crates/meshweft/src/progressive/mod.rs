@@ -1,0 +1,24 @@
+//! Progressive meshes: one structure for every resolution, and a rendering sequence that follows.
+//!
+//! Alexander Bogomjakov, Craig Gotsman: *Universal Rendering Sequences for Transparent Vertex
+//! Caching of Progressive Meshes*, Computer Graphics Forum 21(2), 2002,
+//! doi:10.1111/1467-8659.00573, section 3. Gang Lin, Thomas P.-Y. Yu: *An Improved Vertex Caching
+//! Scheme for 3D Mesh Rendering*, IEEE Transactions on Visualization and Computer Graphics 12(4),
+//! 2006, doi:10.1109/TVCG.2006.59, section 3.
+//!
+//! A mesh gets coarser by update records. Each removes a vertex with all its faces, which leaves a
+//! hole, and fills the hole with fewer faces. Played forwards the records make the mesh coarser,
+//! played backwards finer. The *level* is the number of records that are played: 0 is full
+//! resolution. Faces that a record does not name keep their places in the rendering sequence; the
+//! new ones go where the old ones were, and a *sequence update* decides which goes where. So each
+//! level comes in a good order without being ordered again.
+//!
+//! Read [`history`] for the records, then [`sequence`] for the updates of the two papers.
+
+pub mod history;
+#[cfg(test)]
+pub(crate) mod made;
+pub mod sequence;
+
+pub use history::{History, HistoryBuilder, NewRecord, Record};
+pub use sequence::{AdaptiveUpdate, SimpleUpdate, SmartUpdate};
