@@ -4,7 +4,7 @@
 //! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
 //! document and keeps every other byte, `inspect` counts it as it is, and `compare` tells
 //! whether two documents hold the same triangles; their reports are values that know their JSON.
-//! [`Method`] has every order by name.
+//! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser.
 //!
 //! This is the only place that joins files and algorithms. Read `options`, then `better` for why a run
 //! on its own output changes nothing, then `improve`.
@@ -29,6 +29,7 @@ mod optimize;
 #[cfg(feature = "files")]
 mod optimize_json;
 mod options;
+mod sequence_updates;
 mod shared_progress;
 #[cfg(feature = "files")]
 mod vertex_groups;
@@ -45,3 +46,4 @@ pub use methods::{Method, grid_orders, linear_arrangement_cost};
 #[cfg(feature = "files")]
 pub use optimize::{CountChange, OptimizeError, OptimizeReport, OptimizedMesh, optimize};
 pub use options::{Greedy, Options, OptionsError};
+pub use sequence_updates::SequenceUpdate;
