@@ -1,11 +1,11 @@
 //! Positions and directions in space, as plain arrays; how far surfaces are from each other.
 
 mod deviation;
-mod double;
+pub(crate) mod double;
 mod normals;
 mod samples;
 mod surface;
-mod triangle;
+pub(crate) mod triangle;
 mod vector;
 
 pub use deviation::{Deviation, Distances, deviation};

@@ -9,7 +9,7 @@ const FLAT: f64 = 1e-24;
 ///
 /// A triangle without an area is its edges, an edge without a length its point. Coordinates are finite.
 #[inline]
-pub(super) fn way_to_triangle(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+pub(crate) fn way_to_triangle(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [from_a, from_b, from_c] = [a, b, c].map(|corner| sub(p, corner));
     let [ab, bc, ca] = [sub(b, a), sub(c, b), sub(a, c)];
     let normal = cross(ca, ab);

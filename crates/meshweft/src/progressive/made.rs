@@ -1,7 +1,9 @@
 //! Histories for tests: collapses by brute force, and records that no simplifier makes.
 
 use super::history::{History, HistoryBuilder, NewRecord};
+use crate::attribute::{Attribute, Semantic};
 use crate::faces::Faces;
+use crate::mesh::Mesh;
 use crate::random::SplitMix64;
 
 /// A rectangle of squares, each cut in two: a manifold with a border.
@@ -153,4 +155,50 @@ pub(crate) fn any_records(
         builder.push(&record).expect("it keeps to the rules");
     }
     builder.finish()
+}
+
+/// Positions that are not special in any way.
+pub(crate) fn somewhere(vertices: usize, seed: u64) -> Vec<[f32; 3]> {
+    let mut random = SplitMix64(seed);
+    let mut coordinate = || random.below(1 << 20) as f32 / 1024.0;
+    (0..vertices)
+        .map(|_| [(); 3].map(|()| coordinate()))
+        .collect()
+}
+
+/// A sheet with hills.
+pub(crate) fn hills(columns: u32, rows: u32) -> Mesh {
+    let at = |vertex: u32| {
+        let [x, y] = [vertex % (columns + 1), vertex / (columns + 1)].map(|i| i as f32 * 0.25);
+        [x, y, x.sin() * y.cos()]
+    };
+    let positions: Vec<_> = (0..(columns + 1) * (rows + 1)).map(at).collect();
+    Mesh::new(positions, grid(columns, rows)).unwrap()
+}
+
+/// A box whose sides share no vertices: normals tell them apart.
+pub(crate) fn boxed(cells: u32) -> (Mesh, Vec<Attribute>) {
+    let (mut positions, mut normals, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+    for side in 0..6 {
+        let (axis, is_far) = (side / 2, side % 2 == 0);
+        let first = u32::try_from(positions.len()).unwrap();
+        for vertex in 0..(cells + 1) * (cells + 1) {
+            let [u, v] = [vertex % (cells + 1), vertex / (cells + 1)];
+            let mut position = [0.0; 3];
+            position[axis] = if is_far { cells as f32 } else { 0.0 };
+            position[(axis + 1) % 3] = if is_far { u } else { cells - u } as f32;
+            position[(axis + 2) % 3] = v as f32;
+            positions.push(position);
+            let mut normal = [0.0; 3];
+            normal[axis] = if is_far { 1.0 } else { -1.0 };
+            normals.push(normal);
+        }
+        faces.extend(
+            grid(cells, cells)
+                .iter()
+                .map(|face| face.map(|vertex| vertex + first)),
+        );
+    }
+    let normals = Attribute::of_vertices(Semantic::Normal, &normals);
+    (Mesh::new(positions, faces).unwrap(), vec![normals])
 }

@@ -13,12 +13,28 @@
 //! new ones go where the old ones were, and a *sequence update* decides which goes where. So each
 //! level comes in a good order without being ordered again.
 //!
-//! Read [`history`] for the records, then [`sequence`] for the updates of the two papers.
+//! Any history of such records can be played: read [`history`] for the records, then [`sequence`] for the
+//! updates of the two papers. Ours is made by half-edge collapses: [`Collapses`] decides which vertex leaves
+//! next, and makes a [`ProgressiveMesh`]. There a record only changes corners and takes faces away, so every
+//! face keeps its place in the sequence, and a [`Walk`] from one level to another edits it in place.
+//! [`Checkpoints`] are orders for some levels, so that the sequence stays good down to the coarsest.
 
+mod checkpoints;
+mod collapses;
 pub mod history;
 #[cfg(test)]
 pub(crate) mod made;
+mod progressive_mesh;
+mod records;
 pub mod sequence;
+#[cfg(test)]
+mod tests;
+mod walk;
 
+pub use checkpoints::{CheckpointWalk, Checkpoints};
+pub use collapses::{AttributeWeights, Collapses};
 pub use history::{History, HistoryBuilder, NewRecord, Record};
+pub use progressive_mesh::{ProgressiveMesh, StopReason};
+pub use records::{Collapse, SidePair};
 pub use sequence::{AdaptiveUpdate, SimpleUpdate, SmartUpdate};
+pub use walk::Walk;

@@ -1,0 +1,273 @@
+//! The loop: which point is removed next, and what is noted of it.
+
+use super::costs::RemovalCosts;
+use super::fan::{Move, Precision};
+use super::link::{self, Marks};
+use super::parts::Parts;
+use super::queue::RemovalQueue;
+use super::remaining::{FanFace, RemainingMesh};
+use super::settings::Collapses;
+use super::sides;
+use crate::attribute::Attribute;
+use crate::index::index32;
+use crate::progressive::records::{Records, SidePair};
+
+/// What is known while points are removed.
+pub(super) struct Builder<'a> {
+    settings: Collapses,
+    rest: RemainingMesh<'a>,
+    queue: RemovalQueue,
+    is_locked: Vec<bool>,
+    costs: RemovalCosts,
+    parts: Option<Parts>,
+    records: Records,
+    largest_error: f32,
+    marks: Marks,
+}
+
+impl<'a> Builder<'a> {
+    pub(super) fn new(
+        settings: Collapses,
+        mut rest: RemainingMesh<'a>,
+        attributes: &[Attribute],
+    ) -> Self {
+        let points = rest.point_count();
+        let parts = settings.drop_parts.then(|| Parts::new(&mut rest));
+        Self {
+            settings,
+            queue: RemovalQueue::new(points + parts.as_ref().map_or(0, Parts::len)),
+            is_locked: link::locked(&mut rest, settings.lock_border),
+            costs: RemovalCosts::new(&settings, &rest, attributes),
+            parts,
+            records: Records::default(),
+            largest_error: 0.0,
+            marks: Marks::new(points),
+            rest,
+        }
+    }
+
+    /// Removes points as long as there are too many faces; returns what was done and whether the error was
+    /// the limit.
+    pub(super) fn run(mut self) -> (Records, bool) {
+        self.leave_degenerate();
+        while self.rest.live_faces() > self.settings.faces {
+            let before = self.records.len();
+            self.enqueue_all();
+            while self.rest.live_faces() > self.settings.faces
+                && let Some(next) = self.queue.pop()
+            {
+                match (next as usize).checked_sub(self.rest.point_count()) {
+                    None => self.visit(next),
+                    Some(part) => self.drop_part(index32(part)),
+                }
+            }
+            // What was in the way of a point may have gone without a change of its own faces.
+            if self.records.len() == before {
+                break;
+            }
+        }
+        (self.records, self.costs.is_limited)
+    }
+
+    /// Faces with two corners at one point leave first.
+    fn leave_degenerate(&mut self) {
+        let before = self.rest.live_faces();
+        if before == self.rest.face_count() as usize || before <= self.settings.faces {
+            return;
+        }
+        for face in 0..self.rest.face_count() {
+            if !self.rest.is_live(face) {
+                self.records.push_leaving(face);
+            }
+        }
+        self.records.finish(0.0);
+    }
+
+    /// Every point that may go waits for its turn, by a cost that is not too high.
+    fn enqueue_all(&mut self) {
+        for point in 0..index32(self.rest.point_count()) {
+            if self.is_locked[point as usize]
+                || self.queue.has(point)
+                || !self.costs.look_around(&mut self.rest, point)
+            {
+                continue;
+            }
+            let costs = self.costs.moves.iter().map(|it| it.cost);
+            if let Some(least) = costs.min_by(f64::total_cmp) {
+                self.push(point, self.costs.key(least));
+            }
+        }
+        if let Some(parts) = &self.parts {
+            for part in 0..index32(parts.len()) {
+                self.push_if_stuck(part);
+            }
+        }
+    }
+
+    fn push(&mut self, point: u32, key: f32) {
+        self.queue.push(point, key);
+        if let Some(parts) = &mut self.parts {
+            parts.begin(point);
+        }
+    }
+
+    /// The next point: it is removed, or waits again where that costs more than it seemed to.
+    fn visit(&mut self, point: u32) {
+        self.try_to_remove(point);
+        if let Some(parts) = &mut self.parts {
+            parts.end(point);
+            let part = parts.of(point);
+            self.push_if_stuck(part);
+        }
+    }
+
+    fn try_to_remove(&mut self, point: u32) {
+        if !self.costs.look_around(&mut self.rest, point) {
+            return;
+        }
+        let mut is_gathered = false;
+
+        // The cheapest move first, and only what it may cost at least is worth knowing more of.
+        while let Some(at) = cheapest(&self.costs.moves) {
+            let found = self.costs.moves[at];
+            let key = self.costs.key(found.cost);
+            if self.queue.is_later(key) {
+                self.push(point, key);
+                return;
+            }
+            match found.precision {
+                Precision::Planes => {
+                    if !self.costs.measure(&self.rest, point, at) {
+                        self.costs.moves.swap_remove(at);
+                    }
+                    continue;
+                }
+                Precision::Point if self.costs.has_witnesses() => {
+                    if !is_gathered {
+                        is_gathered = true;
+                        self.costs.gather_witnesses(&self.rest, point);
+                    }
+                    self.costs.ask_witnesses(&self.rest, at);
+                    continue;
+                }
+                _ => {}
+            }
+            self.costs.moves.swap_remove(at);
+            let is_allowed = self.costs.fan.keeps_sides(found.to, found.step)
+                && link::keeps_topology(
+                    &mut self.rest,
+                    &mut self.marks,
+                    &self.costs.fan,
+                    point,
+                    found.to,
+                )
+                && sides::pair(&self.rest, &self.costs.fan, found.to, &mut self.costs.pairs);
+            if is_allowed {
+                self.collapse(point, found);
+                return;
+            }
+        }
+    }
+
+    /// Removes the point whose fan and pairs were found last.
+    fn collapse(&mut self, point: u32, found: Move) {
+        let error = self.costs.remove(point, found);
+        self.largest_error = self.largest_error.max(error);
+        let (fan, pairs) = (&self.costs.fan, &self.costs.pairs);
+
+        // Corners that change, vertex by vertex, then faces that leave.
+        let leaves = |face: &FanFace| face.ring.contains(&found.to);
+        for &pair in pairs {
+            for face in fan.faces.iter().filter(|face| !leaves(face)) {
+                if self.rest.side(face.corner) == pair.from {
+                    self.records.push_corner(face.corner);
+                }
+            }
+            self.records.push_pair(pair);
+        }
+        for face in fan.faces.iter().filter(|face| leaves(face)) {
+            self.rest.remove(face.face());
+            self.records.push_leaving(face.face());
+        }
+        self.rest.forget(point);
+        for face in fan.faces.iter().filter(|face| !leaves(face)) {
+            let side = self.rest.side(face.corner);
+            let pair = pairs.iter().find(|pair| pair.from == side);
+            let to = pair.map_or(found.to, |pair| pair.to);
+            self.rest.set_corner(face.corner, found.to, to);
+        }
+        self.records.finish(self.largest_error);
+
+        // Neighbours that could not go may be able to now.
+        for at in 0..self.costs.fan.faces.len() {
+            for neighbour in self.costs.fan.faces[at].ring {
+                if !self.is_locked[neighbour as usize] && !self.queue.has(neighbour) {
+                    self.push(neighbour, 0.0);
+                }
+            }
+        }
+    }
+
+    /// A part none of whose points can go waits to leave as a whole.
+    fn push_if_stuck(&mut self, part: u32) {
+        let entry = index32(self.rest.point_count()) + part;
+        let Some(parts) = self.parts.as_ref().filter(|parts| parts.is_stuck(part)) else {
+            return;
+        };
+        let extent = parts.extent(&self.rest, part);
+        if extent > f64::from(self.settings.error) {
+            self.costs.is_limited = true;
+        } else if extent > 0.0 && !self.queue.has(entry) {
+            let cost = self.costs.of_distance(&self.rest, extent);
+            self.queue.push(entry, self.costs.key(cost));
+        }
+    }
+
+    /// The faces of a part leave, unless no others would be left.
+    fn drop_part(&mut self, part: u32) {
+        let Some(parts) = self.parts.as_ref().filter(|parts| parts.is_stuck(part)) else {
+            return;
+        };
+        let points: Vec<u32> = parts.points(&self.rest, part).collect();
+        let extent = parts.extent(&self.rest, part);
+        let mut corners = Vec::new();
+        for point in points {
+            self.rest.visit(point, |face| {
+                corners.push(face.corner);
+                true
+            });
+        }
+        let distinct = |mut numbers: Vec<u32>| {
+            numbers.sort_unstable();
+            numbers.dedup();
+            numbers
+        };
+        let vertices = distinct(
+            corners
+                .iter()
+                .map(|&corner| self.rest.side(corner))
+                .collect(),
+        );
+        let faces = distinct(corners.iter().map(|corner| corner / 3).collect());
+        if faces.is_empty() || faces.len() == self.rest.live_faces() {
+            return;
+        }
+
+        for from in vertices {
+            self.records.push_pair(SidePair { from, to: from });
+        }
+        for face in faces {
+            self.rest.remove(face);
+            self.records.push_leaving(face);
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "an estimate")]
+        let error = extent as f32;
+        self.largest_error = self.largest_error.max(error);
+        self.records.finish(self.largest_error);
+    }
+}
+
+/// The place of the cheapest move.
+fn cheapest(moves: &[Move]) -> Option<usize> {
+    (0..moves.len()).min_by(|&a, &b| moves[a].cost.total_cmp(&moves[b].cost))
+}

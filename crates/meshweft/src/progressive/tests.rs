@@ -1,0 +1,425 @@
+//! What holds for every progressive mesh: checked level by level, by brute force.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::made::{boxed, grid, hills, somewhere, sphere};
+use super::{CheckpointWalk, Checkpoints, Collapses, ProgressiveMesh, StopReason, Walk};
+use crate::attribute::{Attribute, Semantic};
+use crate::order::{Effort, KCacheReorder};
+use crate::random::SplitMix64;
+use crate::{CacheModel, Mesh};
+
+const EFFORTS: [Effort; 2] = [Effort::Fast, Effort::Best];
+
+fn vertex_count(faces: &[[u32; 3]]) -> usize {
+    faces
+        .as_flattened()
+        .iter()
+        .max()
+        .map_or(0, |&last| last as usize + 1)
+}
+
+/// Edges by how many faces have them in one and in the other direction.
+fn edges(faces: &[[u32; 3]]) -> BTreeMap<[u32; 2], [u32; 2]> {
+    let mut edges: BTreeMap<_, [u32; 2]> = BTreeMap::new();
+    for &[a, b, c] in faces {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            edges.entry([from.min(to), from.max(to)]).or_default()[usize::from(from > to)] += 1;
+        }
+    }
+    edges
+}
+
+/// Vertices − edges + faces, and the number of open edges' loops that the border has.
+fn topology(faces: &[[u32; 3]]) -> (i64, bool) {
+    let vertices: BTreeSet<u32> = faces.as_flattened().iter().copied().collect();
+    let edges = edges(faces);
+    let is_manifold = edges.values().all(|&[there, back]| there <= 1 && back <= 1);
+    (
+        vertices.len() as i64 - edges.len() as i64 + faces.len() as i64,
+        is_manifold,
+    )
+}
+
+/// Calls `check` with the faces of each level.
+fn at_each_level(mesh: &ProgressiveMesh, mut check: impl FnMut(usize, &[[u32; 3]])) {
+    let mut walk = Walk::new(mesh);
+    let mut faces = Vec::new();
+    for level in 0..=mesh.last_level() {
+        walk.go_to(level);
+        walk.emit(&mut faces);
+        check(level, &faces);
+    }
+}
+
+#[test]
+fn manifolds_stay_manifolds_of_the_same_topology() {
+    for (faces, seed) in [
+        (grid(9, 7), 1),
+        (sphere(3), 2),
+        (grid(30, 1), 3),
+        (sphere(0), 4),
+    ] {
+        let count = vertex_count(&faces);
+        let mesh = Mesh::new(somewhere(count, seed), faces.clone()).unwrap();
+        for effort in EFFORTS {
+            let progressive = Collapses {
+                effort,
+                ..Collapses::default()
+            }
+            .build(&mesh, &[])
+            .unwrap();
+            let (euler, _) = topology(&faces);
+            at_each_level(&progressive, |level, faces| {
+                assert_eq!(topology(faces), (euler, true), "level {level}");
+                assert_eq!(faces.len(), progressive.face_count(level));
+                let sorted = |mut face: [u32; 3]| {
+                    face.sort_unstable();
+                    face
+                };
+                let distinct: BTreeSet<_> = faces.iter().map(|&face| sorted(face)).collect();
+                assert_eq!(distinct.len(), faces.len(), "a face twice at level {level}");
+            });
+        }
+    }
+}
+
+/// Every record is one that a history takes, and both have the same faces.
+fn agrees_with_its_history(progressive: &ProgressiveMesh) {
+    let history = progressive.history().unwrap();
+    assert_eq!(history.len(), progressive.last_level());
+    at_each_level(progressive, |level, faces| {
+        if level % 7 == 0 || level == progressive.last_level() {
+            let numbers = history.faces_at(level);
+            let mut expected: Vec<_> = numbers.iter().map(|&number| history.face(number)).collect();
+            let mut faces = faces.to_vec();
+            expected.sort_unstable();
+            faces.sort_unstable();
+            assert_eq!(faces, expected, "level {level}");
+        }
+    });
+}
+
+#[test]
+fn soups_give_records_that_a_history_takes() {
+    let mut random = SplitMix64(5);
+    for round in 0..1000 {
+        let vertices = 1 + random.below(12);
+        let faces: Vec<[u32; 3]> = (0..random.below(40))
+            .map(|_| [(); 3].map(|()| u32::try_from(random.below(vertices)).unwrap()))
+            .collect();
+        // A few places only, so that vertices share points.
+        let places = somewhere(1 + random.below(vertices), round);
+        let positions: Vec<_> = (0..vertices)
+            .map(|_| places[random.below(places.len())])
+            .collect();
+        let ids: Vec<[f32; 1]> = (0..vertices).map(|_| [random.below(2) as f32]).collect();
+        let attributes = [Attribute::of_vertices(Semantic::TexCoord(0), &ids)];
+        let mesh = Mesh::new(positions, faces).unwrap();
+        let settings = Collapses {
+            effort: EFFORTS[random.below(2)],
+            drop_parts: random.below(2) == 0,
+            lock_border: random.below(4) == 0,
+            ..Collapses::default()
+        };
+        agrees_with_its_history(&settings.build(&mesh, &attributes).unwrap());
+    }
+}
+
+#[test]
+fn walks_come_back_to_the_same_bytes() {
+    let mesh = hills(20, 20);
+    let progressive = Collapses::default().build(&mesh, &[]).unwrap();
+    agrees_with_its_history(&progressive);
+    let mut levels = Vec::new();
+    at_each_level(&progressive, |_, faces| levels.push(faces.to_vec()));
+
+    let order = KCacheReorder {
+        cache: CacheModel::fifo(11),
+        ..KCacheReorder::default()
+    };
+    let checkpoints = Checkpoints::new(&progressive, 0.7, |faces| order.face_order(faces)).unwrap();
+    let (mut walk, mut stored) = (Walk::new(&progressive), CheckpointWalk::new(&checkpoints));
+    let mut random = SplitMix64(9);
+    let (mut faces, mut other) = (Vec::new(), Vec::new());
+    for _ in 0..10_000 {
+        let level = random.below(levels.len());
+        walk.go_to(level);
+        stored.go_to(level);
+        walk.emit(&mut faces);
+        stored.emit(&mut other);
+        assert_eq!(faces, levels[level]);
+        other.sort_unstable();
+        faces.sort_unstable();
+        assert_eq!(other, faces, "checkpoints at level {level}");
+    }
+    walk.go_to(0);
+    stored.go_to(0);
+    walk.emit(&mut faces);
+    stored.emit(&mut other);
+    assert_eq!(
+        (faces.as_slice(), other.as_slice()),
+        (mesh.faces(), mesh.faces())
+    );
+}
+
+#[test]
+fn what_is_flat_goes_without_an_error() {
+    let square = |i: u32| [(i % 13) as f32, (i / 13) as f32, 0.0];
+    let positions: Vec<[f32; 3]> = (0..13 * 9).map(square).collect();
+    let mesh = Mesh::new(positions, grid(12, 8)).unwrap();
+    for effort in EFFORTS {
+        let progressive = Collapses {
+            effort,
+            ..Collapses::default()
+        }
+        .build(&mesh, &[])
+        .unwrap();
+        assert_eq!(progressive.face_count(progressive.level_of_error(1e-6)), 2);
+        // The last two are as they are: an ear would leave a corner of the square.
+        assert_eq!(progressive.stop(), StopReason::NothingLeft);
+        let limited = Collapses {
+            effort,
+            error: 1e-6,
+            ..Collapses::default()
+        }
+        .build(&mesh, &[])
+        .unwrap();
+        assert_eq!(
+            (limited.face_count(limited.last_level()), limited.stop()),
+            (2, StopReason::Error)
+        );
+        let fewer = Collapses {
+            effort,
+            faces: 50,
+            ..Collapses::default()
+        }
+        .build(&mesh, &[])
+        .unwrap();
+        assert_eq!(
+            (fewer.face_count(fewer.last_level()), fewer.stop()),
+            (50, StopReason::Faces)
+        );
+    }
+}
+
+#[test]
+fn a_needle_keeps_its_point() {
+    // A square with a needle in the middle: planes say nothing about how long it is.
+    let mut positions: Vec<[f32; 3]> = (0..81)
+        .map(|i| [(i % 9) as f32, (i / 9) as f32, 0.0])
+        .collect();
+    positions[40] = [4.0, 4.0, 50.0];
+    for near in [30, 31, 32, 39, 41, 48, 49, 50] {
+        let toward = |axis: usize, of: [f32; 3]| 4.0 + (of[axis] - 4.0) * 0.01;
+        positions[near] = [toward(0, positions[near]), toward(1, positions[near]), 0.0];
+    }
+    let mesh = Mesh::new(positions, grid(8, 8)).unwrap();
+    for effort in EFFORTS {
+        let progressive = Collapses {
+            effort,
+            faces: 20,
+            ..Collapses::default()
+        }
+        .build(&mesh, &[])
+        .unwrap();
+        let mut walk = Walk::new(&progressive);
+        walk.go_to(progressive.last_level());
+        let mut faces = Vec::new();
+        walk.emit(&mut faces);
+        assert!(faces.as_flattened().contains(&40));
+    }
+}
+
+#[test]
+fn seams_do_not_tear() {
+    let (mesh, attributes) = boxed(6);
+    let point = |vertex: u32| mesh.positions()[vertex as usize].map(|x| (x + 0.0).to_bits());
+    for effort in EFFORTS {
+        let progressive = Collapses {
+            effort,
+            ..Collapses::default()
+        }
+        .build(&mesh, &attributes)
+        .unwrap();
+        at_each_level(&progressive, |level, faces| {
+            // Closed at every level, by position.
+            let mut points = BTreeMap::new();
+            let mut number = |vertex: u32| {
+                let next = u32::try_from(points.len()).unwrap();
+                *points.entry(point(vertex)).or_insert(next)
+            };
+            let faces: Vec<_> = faces.iter().map(|face| face.map(&mut number)).collect();
+            assert_eq!(topology(&faces), (2, true), "level {level}");
+            assert!(
+                edges(&faces).values().all(|&both| both == [1, 1]),
+                "level {level} is open"
+            );
+        });
+        assert_eq!(progressive.face_count(progressive.level_of_error(1e-6)), 12);
+    }
+}
+
+#[test]
+fn attributes_hold_vertices() {
+    // Flat, but the texture coordinates have a fold in the middle.
+    let positions: Vec<[f32; 3]> = (0..81)
+        .map(|i| [(i % 9) as f32, (i / 9) as f32, 0.0])
+        .collect();
+    let folded: Vec<[f32; 2]> = positions
+        .iter()
+        .map(|&[x, y, _]| [(x - 4.0).abs(), y])
+        .collect();
+    let straight: Vec<[f32; 2]> = positions.iter().map(|&[x, y, _]| [3.0 * x, y]).collect();
+    let mesh = Mesh::new(positions, grid(8, 8)).unwrap();
+    let left = |coordinates: &[[f32; 2]]| {
+        let attributes = [Attribute::of_vertices(Semantic::TexCoord(0), coordinates)];
+        let progressive = Collapses::default().build(&mesh, &attributes).unwrap();
+        progressive.face_count(progressive.level_of_error(1e-4))
+    };
+    assert_eq!((left(&straight), left(&folded)), (2, 4));
+}
+
+#[test]
+fn vertices_of_the_same_record_count_as_one() {
+    // Three vertices a face, as in a file without an index list.
+    let sheet = hills(6, 6);
+    let positions: Vec<_> = sheet
+        .faces()
+        .iter()
+        .flatten()
+        .map(|&v| sheet.positions()[v as usize])
+        .collect();
+    let faces: Vec<[u32; 3]> = (0..72)
+        .map(|face| [3 * face, 3 * face + 1, 3 * face + 2])
+        .collect();
+    let mesh = Mesh::new(positions, faces).unwrap();
+    let [split, whole] = [&mesh, &sheet].map(|mesh| Collapses::default().build(mesh, &[]).unwrap());
+    assert_eq!(
+        split.face_count(split.last_level()),
+        whole.face_count(whole.last_level())
+    );
+    let coarse = split.fine_to_coarse(split.last_level());
+    let mut walk = Walk::new(&split);
+    walk.go_to(split.last_level());
+    let mut faces = Vec::new();
+    walk.emit(&mut faces);
+    assert!(
+        coarse
+            .iter()
+            .all(|to| faces.as_flattened().contains(&to.unwrap()))
+    );
+}
+
+#[test]
+fn borders_stay_and_parts_leave_on_request() {
+    let mesh = hills(8, 8);
+    let locked = Collapses {
+        lock_border: true,
+        ..Collapses::default()
+    }
+    .build(&mesh, &[])
+    .unwrap();
+    let is_border = |vertex: u32| [0, 8].contains(&(vertex % 9)) || !(9..72).contains(&vertex);
+    assert!(
+        locked
+            .removal_order()
+            .iter()
+            .all(|&vertex| !is_border(vertex))
+    );
+    assert_eq!(locked.removal_order().len(), 49);
+
+    // A tetrahedron beside cannot be simplified.
+    let tip = u32::try_from(mesh.vertex_count()).unwrap();
+    let mut positions = mesh.positions().to_vec();
+    positions.extend([
+        [9.0, 0.0, 0.0],
+        [9.1, 0.0, 0.0],
+        [9.0, 0.1, 0.0],
+        [9.0, 0.0, 0.1],
+    ]);
+    let mut faces = mesh.faces().to_vec();
+    let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    faces.extend(tetrahedron.map(|face| face.map(|vertex| vertex + tip)));
+    let mesh = Mesh::new(positions, faces).unwrap();
+    let kept = Collapses::default().build(&mesh, &[]).unwrap();
+    assert!(kept.removal_order().iter().all(|&vertex| vertex < tip));
+    let dropped = Collapses {
+        drop_parts: true,
+        ..Collapses::default()
+    }
+    .build(&mesh, &[])
+    .unwrap();
+    let left: Vec<_> = dropped
+        .removal_order()
+        .into_iter()
+        .filter(|&vertex| vertex >= tip)
+        .collect();
+    assert_eq!(left, [tip, tip + 1, tip + 2, tip + 3]);
+    assert_eq!(
+        dropped.fine_to_coarse(dropped.last_level())[tip as usize],
+        None
+    );
+    assert!(dropped.face_count(dropped.last_level()) > 0);
+    agrees_with_its_history(&dropped);
+}
+
+#[test]
+fn odd_meshes_are_left_as_far_as_they_must() {
+    // Two sheets that cross in an edge: the edge stays.
+    let positions = somewhere(5, 1);
+    let mesh = Mesh::new(positions, [[0, 1, 2], [1, 0, 3], [0, 1, 4]]).unwrap();
+    let progressive = Collapses::default().build(&mesh, &[]).unwrap();
+    assert!(progressive.removal_order().iter().all(|&vertex| vertex > 1));
+
+    // Coordinates that are nowhere stay, and faces with a corner twice leave first.
+    let sheet = hills(4, 4);
+    let mut positions = sheet.positions().to_vec();
+    positions[12] = [f32::NAN, 0.0, 0.0];
+    positions[6] = [f32::INFINITY; 3];
+    let mut faces = sheet.faces().to_vec();
+    faces.push([3, 3, 4]);
+    let mesh = Mesh::new(positions, faces).unwrap();
+    let progressive = Collapses::default().build(&mesh, &[]).unwrap();
+    assert!(
+        !progressive.removal_order().contains(&12) && !progressive.removal_order().contains(&6)
+    );
+    assert_eq!(progressive.collapse(0).leaving_faces(), [32]);
+
+    let empty = Collapses::default().build(&Mesh::default(), &[]).unwrap();
+    assert_eq!((empty.last_level(), empty.stop()), (0, StopReason::Faces));
+    let blind = Mesh::connectivity_only(3, [[0, 1, 2]]).unwrap();
+    assert_eq!(
+        Collapses::default()
+            .build(&blind, &[])
+            .unwrap_err()
+            .to_string(),
+        "positions: expected 3 entries, found 0"
+    );
+}
+
+#[test]
+fn a_point_of_many_faces_takes_no_more_time() {
+    // A cone of 20,000 faces: quadratic work would take minutes.
+    let around = 20_000_u32;
+    let mut positions = vec![[0.0, 0.0, 5.0]];
+    positions.extend((0..around).map(|i| {
+        let angle = i as f32 / around as f32 * std::f32::consts::TAU;
+        [angle.cos(), angle.sin(), 0.0]
+    }));
+    let faces: Vec<[u32; 3]> = (0..around)
+        .map(|i| [0, 1 + i, 1 + (i + 1) % around])
+        .collect();
+    let mesh = Mesh::new(positions, faces).unwrap();
+    for effort in EFFORTS {
+        let progressive = Collapses {
+            effort,
+            faces: 100,
+            ..Collapses::default()
+        }
+        .build(&mesh, &[])
+        .unwrap();
+        assert_eq!(progressive.face_count(progressive.last_level()), 100);
+        assert!(!progressive.removal_order().contains(&0));
+    }
+}
