@@ -10,6 +10,8 @@ use crate::index::index32;
 
 /// Most faces of a leaf.
 const LEAF: usize = 4;
+/// The largest coordinate that a search takes: all products with those of faces are finite.
+const FARTHEST: f64 = 1e100;
 /// More levels than a tree of 2³² leaves has.
 const LEVELS: usize = 64;
 
@@ -104,17 +106,16 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// The point of the surface that is nearest to `point`; `None` if there is no face or a
-    /// coordinate is not finite.
+    /// The point of the surface that is nearest to `point`; `None` if there is no face, or a coordinate
+    /// is not a number or beyond ±10¹⁰⁰, where products would have no room.
     ///
-    /// Distances are exact to a few units in the last place of the face's size. Of coordinates above 10¹⁵⁰
-    /// squares have no room: then the distance is infinite.
+    /// Distances are exact to a few units in the last place of the face's size.
     ///
     /// # Complexity
     /// O(log faces) where the point is near the surface compared with its bends; never above O(faces).
     #[must_use]
     pub fn nearest(&self, point: [f64; 3]) -> Option<Nearest> {
-        if self.order.is_empty() || !point.iter().all(|x| x.is_finite()) {
+        if self.order.is_empty() || !point.iter().all(|x| x.abs() <= FARTHEST) {
             return None;
         }
         let found = self.search(point, 0);
@@ -149,8 +150,8 @@ impl<'a> Surface<'a> {
         used
     }
 
-    /// The face nearest to a finite point, of which there is one, found the sooner the nearer to it the
-    /// face at the place `start` is.
+    /// The face nearest to a point that [`nearest`](Self::nearest) takes, if there is a face, found the
+    /// sooner the nearer to it the face at the place `start` is.
     pub(super) fn search(&self, point: [f64; 3], start: usize) -> NearFace {
         let mut nearest = self.near_face(point, start);
         // Nodes that wait, with the squares of their distances: at most one a level, and a last one.

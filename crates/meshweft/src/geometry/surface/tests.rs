@@ -91,9 +91,15 @@ fn the_largest_and_smallest_coordinates() {
         let found = surface.nearest([wide / 2.0, wide / 4.0, wide]).unwrap();
         assert_eq!((found.face, found.distance), (1, wide));
     }
-    let positions = [[0.0; 3], [1.0; 3]];
-    let surface = Surface::new(&positions, &[[0, 1, 1]]);
-    assert_eq!(surface.nearest([1e200; 3]).unwrap().distance, f64::INFINITY);
+
+    let positions = [[most, 0.0, 0.0], [0.0, most, 0.0], [0.0, 0.0, -most]];
+    let surface = Surface::new(&positions, &[[0, 1, 2]]);
+    for far in [[1e100; 3], [-1e100, 0.0, 1e100], [1e100, 3.0, -1e100]] {
+        let found = surface.nearest(far).unwrap();
+        let distance = dot(far, far).sqrt();
+        assert!((found.distance / distance - 1.0).abs() < 1e-12, "{found:?}");
+    }
+    assert_eq!(surface.nearest([0.0, -2e100, 0.0]), None);
 }
 
 /// Many faces whose centres are the same cannot be told apart by their centres.
