@@ -1,4 +1,4 @@
-//! Figures 4a and 8 and tables 1 and 2 of Bogomjakov and Gotsman 2002, beside ours, and the
+//! Figures 4a, 4b and 8 and tables 1 and 2 of Bogomjakov and Gotsman 2002, beside ours, and the
 //! universality table of Lin and Yu's figure 10 with every order that is available.
 
 use std::path::PathBuf;
@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 
 use super::arguments::OfPaper;
 use super::figure::{Figure, cells, head, mean, print};
+use super::irregular::irregular_mesh;
 use super::meshes::{LARGE, none_found, open};
 
 /// Cache sizes of figures 4 and 8, which the paper drew as curves from 2 to 64.
@@ -96,7 +97,8 @@ pub(super) fn run(arguments: &OfPaper) -> Result<()> {
         &arguments.report,
         "10.1111/1467-8659.00573",
         &[
-            ("Fig. 4a", "figure_4a", &fig_4),
+            ("Fig. 4a", "figure_4a", &fig_4a),
+            ("Fig. 4b", "figure_4b", &fig_4b),
             ("Fig. 8", "figure_8", &|| fig_8(&found)),
             ("Table 1", "table_1", &|| table_1(&found)),
             ("Table 2", "table_2", &|| table_2(&found)),
@@ -119,24 +121,56 @@ fn ordered(method: Method, mesh: &Mesh) -> Vec<[u32; 3]> {
 }
 
 /// The regular mesh of figure 2 under the sequences of figure 4.
-fn fig_4() -> Figure {
+fn fig_4a() -> Figure {
     let (mesh, [snake, hilbert, primed]) = grid_orders(16, 8, 10);
     let faces = mesh.faces();
-    let sequences = [
-        ("random", ordered(Method::Random { seed: 1 }, &mesh)),
-        ("snake (Fig. 2a)", snake.1.apply(faces)),
-        ("Hilbert (2b)", hilbert.1.apply(faces)),
-        ("recursive cut (2c)", ordered(Method::RecursiveCut, &mesh)),
-        (
-            "linear arrangement (2d)",
-            ordered(Method::LinearArrangement, &mesh),
-        ),
-        ("primed rows, K=10", primed.1.apply(faces)),
-    ];
+    curves(
+        "The regular grid of 16 by 8 squares of Fig. 2: misses per face over the cache size,\n\
+         and the cost of the linear arrangement. The paper drew curves and printed no numbers.",
+        &mesh,
+        [
+            ("random", ordered(Method::Random { seed: 1 }, &mesh)),
+            ("snake (Fig. 2a)", snake.1.apply(faces)),
+            ("Hilbert (2b)", hilbert.1.apply(faces)),
+            ("recursive cut (2c)", ordered(Method::RecursiveCut, &mesh)),
+            (
+                "linear arrangement (2d)",
+                ordered(Method::LinearArrangement, &mesh),
+            ),
+            ("primed rows, K=10", primed.1.apply(faces)),
+        ],
+    )
+}
+
+/// An irregular mesh like that of figure 3.
+fn fig_4b() -> Figure {
+    let mesh = irregular_mesh(1);
+    curves(
+        "An irregular mesh of 509 vertices and 950 faces, as that of Fig. 3, made here: misses per face\n\
+         over the cache size, and the cost of the linear arrangement. The paper drew curves and printed\n\
+         no numbers.",
+        &mesh,
+        [
+            ("random", ordered(Method::Random { seed: 1 }, &mesh)),
+            ("recursive cut (3a)", ordered(Method::RecursiveCut, &mesh)),
+            (
+                "linear arrangement (3b)",
+                ordered(Method::LinearArrangement, &mesh),
+            ),
+        ],
+    )
+}
+
+/// Misses over the cache size of these sequences, and of ours.
+fn curves<const N: usize>(
+    title: &str,
+    mesh: &Mesh,
+    sequences: [(&str, Vec<[u32; 3]>); N],
+) -> Figure {
     let sequences = sequences.map(|(name, faces)| (name.to_owned(), faces));
     let methods = Method::SHOWN.into_iter();
     let methods = methods.filter(|method| method.name().contains("fast"));
-    let methods = methods.map(|method| (method.to_string(), ordered(method, &mesh)));
+    let methods = methods.map(|method| (method.to_string(), ordered(method, mesh)));
 
     let mut rows = vec![sizes_head("")];
     rows[0].push("cost".to_owned());
@@ -151,9 +185,7 @@ fn fig_4() -> Figure {
     }
 
     Figure {
-        title: "The regular grid of 16 by 8 squares of Fig. 2: misses per face over the cache size,\n\
-                and the cost of the linear arrangement. The paper drew curves and printed no numbers."
-            .to_owned(),
+        title: title.to_owned(),
         rows,
         json: json!({"sizes": SIZES, "sequences": json}),
     }

@@ -3,6 +3,7 @@
 mod arguments;
 mod bogomjakov_gotsman;
 mod figure;
+mod irregular;
 mod lin_yu;
 mod meshes;
 
@@ -28,7 +29,7 @@ enum WhichPaper {
     LinYu(OfPaper),
     /// Bogomjakov, Gotsman: Universal Rendering Sequences for Transparent Vertex Caching (2002)
     ///
-    /// Figures 4a and 8 and tables 1 and 2, and the universality table of Lin and Yu's figure 10 with
+    /// Figures 4a, 4b and 8 and tables 1 and 2, and the universality table of Lin and Yu's figure 10 with
     /// every order that is available, on the meshes that are found.
     ///
     ///   meshweft paper bogomjakov-gotsman --data folder-with-meshes
