@@ -85,6 +85,38 @@ impl Meshopt {
     }
 }
 
+/// The faces that meshoptimizer's `simplify` leaves when asked for this many, at its defaults and with any
+/// error allowed. It may stop at more of them.
+///
+/// # Panics
+/// If the mesh has no positions.
+#[must_use]
+pub fn simplified(mesh: &Mesh, face_count: usize) -> Vec<[u32; 3]> {
+    /// In units of the mesh's extent: no error is above.
+    const ANY_ERROR: f32 = 1e10;
+    assert_eq!(mesh.positions().len(), mesh.vertex_count(), "no positions");
+    let mut faces = vec![[0_u32; 3]; mesh.face_count()];
+    // SAFETY: the first pointer is to room for as many indices as there are, the second to these
+    // indices, which are below the number of vertices in every mesh, the third to as many positions,
+    // 12 bytes each; the result is not asked for its error.
+    let index_count = unsafe {
+        ffi::meshopt_simplify(
+            faces.as_mut_ptr().cast(),
+            mesh.faces().as_ptr().cast(),
+            mesh.face_count() * 3,
+            mesh.positions().as_ptr().cast(),
+            mesh.vertex_count(),
+            size_of::<[f32; 3]>(),
+            face_count.min(mesh.face_count()) * 3,
+            ANY_ERROR,
+            0,
+            std::ptr::null_mut(),
+        )
+    };
+    faces.truncate(index_count / 3);
+    faces
+}
+
 /// The faces in the order of Tom Forsyth's *Linear-Speed Vertex Cache Optimisation* (2006), by the
 /// `forsyth` crate at its defaults.
 ///
