@@ -1,5 +1,9 @@
 //! What has to hold for any bytes that a text reader accepts: the faces last first within their
-//! runs, the vertices last first, read again, are the same triangles, in each mesh.
+//! runs, the vertices last first, read again, are the same triangles, in each mesh. Then some of the
+//! faces are selected.
+
+#[path = "../selection/mod.rs"]
+mod selection;
 
 use std::path::Path;
 
@@ -42,6 +46,7 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
         assert_eq!(*before, after, "the triangles by their old vertex numbers");
         assert_eq!(now.mesh.faces(), entry.mesh.faces());
     }
+    selection::check(&mut document);
 }
 
 /// Every attribute can be read, or says why not; how many elements it has is known.

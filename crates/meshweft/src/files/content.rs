@@ -9,6 +9,7 @@ use super::error::{FileErrorKind, Place, Problem};
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::placing::{Beside, Placed};
+use super::select::SelectPlan;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -33,6 +34,13 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     }
     /// Does [`Edit::Order`](super::Edit::Order); the caller has checked the orders.
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>);
+    /// Does [`Edit::Select`](super::Edit::Select), or changes nothing; the notes of the document as it
+    /// then is.
+    fn select(&mut self, _plan: SelectPlan) -> Result<Vec<Note>, Problem> {
+        let text =
+            "faces are not left out of files of this format: convert it to .ply or .glb first";
+        Err(FileErrorKind::unsupported(text).at(Place::File))
+    }
     /// Does [`Edit::Append`](super::Edit::Append), or changes nothing; the notes of the document as it
     /// then is.
     fn append(

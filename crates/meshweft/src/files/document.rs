@@ -16,6 +16,7 @@ use super::links::Stamp;
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
+use super::select::SelectPlan;
 use super::surroundings::{Surroundings, check_size};
 use super::{gltf, obj, off, ply, signature, stl, vrml};
 use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
@@ -341,10 +342,12 @@ impl Document {
     /// # Errors
     /// Of an order, [`FileErrorKind::Order`] or [`FileErrorKind::Unsupported`] if it is of another
     /// length, moves a record out of its run, turns corners that must stay, or moves vertices that
-    /// must stay. Nothing is changed then.
+    /// must stay. Of a selection, the same if it names a face or vertex that is not there or twice, leaves
+    /// out a vertex that is used, or anything that something else in the file may be about; and if what is
+    /// stored with a corner cannot follow it. Nothing is changed then.
     ///
     /// # Panics
-    /// If the edit is of a mesh that is not there.
+    /// If the edit is of a mesh or vertex group that is not there.
     pub fn edit(&mut self, edit: Edit<'_>) -> Result<(), FileError> {
         match edit {
             Edit::Order {
@@ -357,6 +360,16 @@ impl Document {
                 self.is_edited |= faces.is_some_and(|order| !order.is_identity())
                     || vertices.is_some_and(|order| !order.is_identity());
                 self.content.order(mesh, faces, vertices);
+            }
+            Edit::Select { faces, vertices } => {
+                let in_file = |problem: Problem| problem.in_file(&self.path, Some(self.format));
+                let plan = SelectPlan::new(self.meshes(), faces, vertices);
+                let plan = plan.map_err(|kind| in_file(kind.at(Place::File)))?;
+                if !plan.is_identity(self.meshes()) {
+                    let notes = self.content.select(plan);
+                    self.notes = notes.map_err(in_file)?;
+                    self.is_edited = true;
+                }
             }
             Edit::Append { meshes, values } => {
                 let notes = self.content.append(meshes, values);

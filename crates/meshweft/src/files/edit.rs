@@ -3,6 +3,7 @@
 use super::entry::MeshEntry;
 use super::error::FileErrorKind;
 use super::new_mesh::NewMesh;
+use super::select::{SelectedFaces, SelectedVertices};
 use crate::error::MeshError;
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -19,6 +20,36 @@ pub enum Edit<'a> {
         /// An order of its vertices, as they are now. It renumbers every mesh of the same
         /// [`vertex_group`](MeshEntry::vertex_group).
         vertices: Option<&'a VertexOrder>,
+    },
+    /// Faces and vertices are left out, and the rest is put in an order: every vertex of the result is a
+    /// vertex of the source with all that is stored with it, and every face a face of the source whose
+    /// corners may have moved to other vertices. What a simplified mesh is, where no vertex is invented.
+    ///
+    /// Counts follow, and what is derived of them (offsets, lengths, smallest and largest values). What
+    /// leaves takes its bytes with it unless something else names them. Every other byte stays: comments,
+    /// other elements and meshes, materials, images, extensions that are not known.
+    ///
+    /// - A mesh of which no faces are selected keeps all of them, and a vertex group of which no vertices
+    ///   are selected all of those. Vertices are selected by group and not by mesh, because the meshes of
+    ///   a group have the same ones: one list says which stay, for all, and the vertices that any of these
+    ///   meshes uses then must be among them.
+    /// - A polygon stays one, drawn where the first of its faces is, if all its faces are selected with
+    ///   their corners. Else it is cut into its faces, each with all that was stored with the polygon. A
+    ///   record without faces (of fewer than three corners) leaves with the first vertex that leaves.
+    /// - What is stored with a face stays with it. What is stored with a corner follows the corner; one
+    ///   that moves to another vertex takes what the other corners at that vertex have, of its side of a
+    ///   seam if they differ, and where this cannot be told it is an error.
+    /// - STL files, and meshes of a glTF without indices, store no vertices but corners. Theirs are copies
+    ///   of what the vertex has in the source, which vertices stay follows from the faces, and a facet of
+    ///   an STL file that has changed gets the normal of its corners.
+    ///
+    /// Afterwards the document is what a reader of the written file sees; the meshes keep their numbers. A
+    /// selection of everything as it is changes nothing.
+    Select {
+        /// Faces, each mesh at most once.
+        faces: &'a [SelectedFaces<'a>],
+        /// Vertices, each vertex group at most once.
+        vertices: &'a [SelectedVertices<'a>],
     },
     /// Meshes, and anything else, are added to a glTF or GLB. Whatever was there keeps its bytes and
     /// its number: new bytes go to the end of a buffer, new elements to the ends of arrays, new members
@@ -48,6 +79,31 @@ impl<'a> Edit<'a> {
             faces,
             vertices,
         }
+    }
+
+    /// [`Select`](Self::Select) of faces and vertices.
+    ///
+    /// ```
+    /// use meshweft::Limits;
+    /// use meshweft::files::{Document, Edit, Format, SelectedFace, SelectedFaces, SelectedVertices};
+    ///
+    /// // Two faces; vertex 3 collapses onto vertex 2, and the second face with it.
+    /// let text = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n";
+    /// let (name, limits) = ("two.off".as_ref(), Limits::default());
+    /// let mut document = Document::from_bytes(text.into(), Format::Off, name, limits)?;
+    /// let faces = [SelectedFace { face: 0, corners: [0, 1, 2] }];
+    /// let faces = [SelectedFaces { mesh: 0, faces: &faces }];
+    /// let vertices = [SelectedVertices { vertex_group: 0, vertices: &[0, 1, 2] }];
+    /// document.edit(Edit::select(&faces, &vertices))?;
+    /// assert_eq!(document.to_main_bytes()?, b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    /// # Ok::<(), meshweft::files::FileError>(())
+    /// ```
+    ///
+    /// # Complexity
+    /// Time O(bytes of the file + n log n) in faces and vertices, space as reading it takes.
+    #[must_use]
+    pub fn select(faces: &'a [SelectedFaces<'a>], vertices: &'a [SelectedVertices<'a>]) -> Self {
+        Self::Select { faces, vertices }
     }
 
     /// [`Append`](Self::Append) of meshes alone.

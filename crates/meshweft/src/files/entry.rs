@@ -47,11 +47,19 @@ impl MeshEntry {
     }
 
     /// The faces of `record` in [`mesh`](Self::mesh), as a range.
-    fn faces_of(&self, record: usize) -> Range<usize> {
+    pub(super) fn faces_of(&self, record: usize) -> Range<usize> {
         match &self.polygons {
             Some(starts) => starts[record] as usize..starts[record + 1] as usize,
             None => record..record + 1,
         }
+    }
+
+    /// The vertices of a record that is cut into a fan of faces: one or more.
+    pub(super) fn corners_of(&self, record: usize) -> impl Iterator<Item = u32> {
+        let faces = &self.mesh.faces()[self.faces_of(record)];
+        let first = faces.first().map(|face| [face[0], face[1]]);
+        let first = first.into_iter().flatten();
+        first.chain(faces.iter().map(|face| face[2]))
     }
 
     /// An order of the records, made by ordering each run on its own with `face_order`.

@@ -2,7 +2,7 @@
 //!
 //! Re-ordering permutes records of a file, so the file is patched rather than written again from
 //! nothing: whatever a reader does not know (materials, extras, extensions, comments) cannot be
-//! lost. What is added goes to the ends, and nothing moves. Read [`Document`] first, then
+//! lost. What is added goes to the ends, and nothing moves; what is left out leaves, and counts follow. Read [`Document`] first, then
 //! [`MeshEntry`]; each format has a module of its own.
 //!
 //! | to learn | read |
@@ -10,13 +10,16 @@
 //! | how a format plugs in | `content` |
 //! | what can be done to a document | [`Edit`], [`Document::create`] |
 //! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `definitions`, `record_file` |
+//! | how records leave, and what then stands with a corner | `select`, `bonds`, `selected`, `corner_sources` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
 //! | what a file is, by its name and by its bytes | [`Format`], `signature` |
 //! | where bytes come from | `disk`, `surroundings` |
 //! | where they go, and why nothing is lost on the way | `write`, `placing`, `companions`, `links`, `locks`, `disk` |
 
+mod bonds;
 mod companions;
 mod content;
+mod corner_sources;
 mod decoded;
 mod definitions;
 mod disk;
@@ -41,6 +44,8 @@ mod placing;
 mod ply;
 mod record_file;
 mod rewrite;
+mod select;
+mod selected;
 mod signature;
 mod slots;
 mod splice;
@@ -61,5 +66,6 @@ pub use new_mesh::{NewMesh, NewVertices};
 pub use note::Note;
 pub use options::ReadOptions;
 pub use outputs::Outputs;
+pub use select::{SelectedFace, SelectedFaces, SelectedVertices};
 pub use surroundings::Surroundings;
 pub use write::{WriteOptions, Written};

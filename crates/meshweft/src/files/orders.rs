@@ -12,6 +12,11 @@ pub(super) struct RecordOrders {
 }
 
 impl RecordOrders {
+    /// Whether everything is where it was.
+    pub(super) fn is_empty(&self) -> bool {
+        self.records.is_empty() && self.rotations.is_empty() && self.vertices.is_empty()
+    }
+
     pub(super) fn add_faces(&mut self, order: &FaceOrder) {
         if order.is_identity() {
             return;

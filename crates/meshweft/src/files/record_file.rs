@@ -1,20 +1,28 @@
 //! Files that are a sequence of records, in text or in bytes: OBJ, OFF, PLY, STL.
 //!
-//! The source is never changed: orders add up, and the output is spliced when it is asked for.
+//! The source is never changed by orders: they add up, and the output is spliced when it is asked for.
+//! What a selection leaves is a new source, which is read again.
 
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
+use super::bonds::Bonds;
 use super::content::{Content, OutputFile, OutputPlace};
 use super::definitions::{Filling, Places};
+use super::edit::check_order;
 use super::entry::MeshEntry;
-use super::error::Problem;
+use super::error::{FileErrorKind, Place, Problem};
+use super::note::Note;
+use super::options::ReadOptions;
 use super::orders::{RecordOrders, record_in};
 use super::placing::Placed;
-use super::rewrite::{Change, Notation, Rewrite, StoredMesh};
+use super::rewrite::{Change, Rewrite, StoredMesh};
+use super::select::{PlannedRecord, SelectPlan};
+use super::selected::{self, SelectNotation, SelectSource, SelectedFile};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
 use crate::attribute::{Attribute, AttributeInfo};
+use crate::index::index32;
 use crate::permutation::{FaceOrder, VertexOrder};
 
 /// A file of records, and the orders its records were put in.
@@ -30,9 +38,20 @@ pub(super) struct RecordFile<N> {
     /// One mesh, or none if the file has no faces.
     pub(super) entries: Vec<MeshEntry>,
     pub(super) orders: RecordOrders,
+    /// What may be about records that are left out.
+    pub(super) bonds: Bonds,
+    /// How it was read, and how other bytes in its stead are.
+    pub(super) options: ReadOptions,
+    pub(super) read_again: ReadAgain<N>,
 }
 
-impl<N: Notation> RecordFile<N> {
+/// Reads other bytes as a file was read.
+pub(super) type ReadAgain<N> = fn(&RecordFile<N>, Vec<u8>) -> Result<RecordRead<N>, Problem>;
+
+/// A file that was read, and what there is to say about it.
+pub(super) type RecordRead<N> = (RecordFile<N>, Vec<Note>);
+
+impl<N: SelectNotation> RecordFile<N> {
     fn write(&self, sink: &mut dyn io::Write) -> io::Result<()> {
         let RecordOrders {
             records, vertices, ..
@@ -146,6 +165,97 @@ impl<N: Notation> RecordFile<N> {
         let definitions = self.notation.definitions()?;
         definitions.places(&self.faces, &self.vertices, runs, &self.orders)
     }
+
+    /// The file with all records where its orders put them.
+    fn settled(&self) -> Result<Self, Problem> {
+        let mut bytes = Vec::with_capacity(self.source.len());
+        let written = self.write(&mut bytes);
+        written.map_err(|error| FileErrorKind::Io(error).at(Place::File))?;
+        let (file, _) = (self.read_again)(self, bytes).map_err(not_again)?;
+        match file.entries.iter().zip(&self.entries).next() {
+            Some((new, old)) if new.mesh.faces() == old.mesh.faces() => Ok(file),
+            _ => Err(otherwise()),
+        }
+    }
+
+    /// The file, whose records are where its source has them, without what is left out.
+    fn without(&self, plan: &SelectPlan) -> Result<RecordRead<N>, Problem> {
+        let vertices = plan.group(0).filter(|group| !group.are_all());
+        let old_to_new = match vertices {
+            Some(vertices) if self.vertices.len() > 0 => vertices.old_to_new.as_slice(),
+            _ => &[],
+        };
+        let source = SelectSource {
+            stored: StoredMesh {
+                source: &self.source,
+                vertices: &self.vertices,
+                faces: &self.faces,
+                entry: &self.entries[0],
+                orders: &self.orders,
+            },
+            companions: &self.companions,
+            lines: &self.lines,
+            old_to_new,
+        };
+        let mut writer = self.notation.select_writer(&source);
+        let rows = self.notation.vertex_rows();
+        let SelectedFile {
+            bytes,
+            vertices,
+            faces,
+        } = selected::write(&source, plan, rows, &mut *writer)?;
+
+        // A reader has to find what was written, where it was written.
+        let (file, notes) = (self.read_again)(self, bytes).map_err(not_again)?;
+        let is_found = file.vertices.is_same(&vertices) && file.faces.is_same(&faces);
+        let expected = self.faces_of(plan, &source);
+        match &file.entries[..] {
+            [entry] if is_found && entry.mesh.faces() == expected => {}
+            _ => return Err(otherwise()),
+        }
+        Ok((file, notes))
+    }
+
+    /// The faces that are left.
+    fn faces_of(&self, plan: &SelectPlan, source: &SelectSource<'_>) -> Vec<[u32; 3]> {
+        let entry = &self.entries[0];
+        let mut faces: Vec<[u32; 3]> = match plan.mesh(0) {
+            Some(mesh) => mesh.faces(entry).collect(),
+            None => entry.mesh.faces().to_vec(),
+        };
+        if self.vertices.len() > 0 {
+            for vertex in faces.as_flattened_mut() {
+                *vertex = source.new_number(*vertex);
+            }
+            return faces;
+        }
+
+        // Vertices that are made of corners are those that faces use, in their old order.
+        let mut numbers = vec![None; entry.mesh.vertex_count()];
+        for &vertex in faces.as_flattened() {
+            numbers[vertex as usize] = Some(0);
+        }
+        for (new, number) in numbers.iter_mut().flatten().enumerate() {
+            *number = index32(new);
+        }
+        for vertex in faces.as_flattened_mut() {
+            *vertex = numbers[*vertex as usize].unwrap_or_default();
+        }
+        faces
+    }
+}
+
+/// The problem of a file of which a reader would not find what is left.
+fn otherwise() -> Problem {
+    let text = "what is left could be read in another way than it was: write each vertex and each face on a \
+                line of its own";
+    FileErrorKind::unsupported(text).at(Place::File)
+}
+
+/// The problem of a file that cannot be read any more.
+fn not_again(problem: Problem) -> Problem {
+    let text = format!("what is left cannot be read: {}", problem.kind);
+    FileErrorKind::unsupported(text).at(Place::File)
 }
 
 impl<N> fmt::Debug for RecordFile<N> {
@@ -158,7 +268,7 @@ impl<N> fmt::Debug for RecordFile<N> {
     }
 }
 
-impl<N: Notation> Content for RecordFile<N> {
+impl<N: SelectNotation> Content for RecordFile<N> {
     fn meshes(&self) -> &[MeshEntry] {
         &self.entries
     }
@@ -188,6 +298,34 @@ impl<N: Notation> Content for RecordFile<N> {
             orders.add_vertices(vertices);
             entry.apply_vertices(vertices);
         }
+    }
+
+    fn select(&mut self, plan: SelectPlan) -> Result<Vec<Note>, Problem> {
+        // Nothing may be about what leaves.
+        let stays =
+            |(record, planned): (usize, &PlannedRecord)| planned.record() == index32(record);
+        let faces_leave = plan.mesh(0).is_some_and(|mesh| {
+            let is_each = mesh.records.len() == self.faces.len();
+            !(is_each && mesh.records.iter().enumerate().all(stays))
+        });
+        let vertices = plan.group(0);
+        let vertices_leave = vertices.is_some_and(|vertices| !vertices.are_all());
+        self.bonds.check(faces_leave, vertices_leave)?;
+
+        // What stays, first as it stands and then in its order.
+        let (mut file, notes) = match self.orders.is_empty() {
+            true => self.without(&plan)?,
+            false => self.settled()?.without(&plan)?,
+        };
+        let faces = plan.mesh(0).map(|mesh| &mesh.order);
+        let faces = faces.filter(|order| !order.is_identity());
+        let vertices = vertices.map(|vertices| &vertices.order);
+        let vertices = vertices.filter(|order| !order.is_identity() && file.vertices.len() > 0);
+        let checked = check_order(&file.entries[0], faces, vertices);
+        checked.map_err(|kind| kind.at(Place::File))?;
+        file.order(0, faces, vertices);
+        *self = file;
+        Ok(notes)
     }
 
     fn companions(&self) -> Vec<PathBuf> {

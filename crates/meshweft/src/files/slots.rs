@@ -97,6 +97,25 @@ impl Spans {
         self.uneven.is_none().then_some(self.length)
     }
 
+    /// How many records start before `at`.
+    pub(super) fn above(&self, at: usize) -> usize {
+        let (mut low, mut high) = (0, self.count);
+        while low < high {
+            let middle = low.midpoint(high);
+            match self.span(middle).start < at {
+                true => low = middle + 1,
+                false => high = middle,
+            }
+        }
+        low
+    }
+
+    /// Whether the same records stand at the same places.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let is_at = |record| self.span(record) == other.span(record);
+        self.count == other.count && (0..self.count).all(is_at)
+    }
+
     #[inline]
     pub(super) fn span(&self, record: usize) -> Range<usize> {
         let (start, length) = match &self.uneven {

@@ -18,21 +18,21 @@ const MOST_TEXTURES: usize = 1 << 14;
 
 /// What the libraries of a file say of the materials that it uses.
 #[derive(Default)]
-pub(super) struct Materials<'a> {
+struct Materials<'a> {
     /// Whether each material is transparent.
     by_name: BTreeMap<&'a [u8], Option<bool>>,
     /// The same by the first word of their names, which is all that some programs read.
     by_word: BTreeMap<&'a [u8], Option<bool>>,
     /// The libraries and the textures that they name.
-    pub(super) files: BTreeSet<PathBuf>,
+    files: BTreeSet<PathBuf>,
     /// The first library that could not be read: where it is named, its path, and why.
-    pub(super) unread: Option<(usize, PathBuf, String)>,
+    unread: Option<(usize, PathBuf, String)>,
 }
 
 impl<'a> Materials<'a> {
     /// Reads the libraries that these `mtllib` texts name, with where each stands in the file, as far as
     /// they say something of the materials `used`.
-    pub(super) fn read(
+    fn read(
         libraries: &BTreeMap<&[u8], usize>,
         used: impl Iterator<Item = &'a [u8]> + Clone,
         surroundings: Surroundings<'_>,
@@ -133,10 +133,49 @@ impl<'a> Materials<'a> {
     }
 
     /// Whether a material that the file uses is transparent; not if no library tells of it.
-    pub(super) fn is_transparent(&self, name: &[u8]) -> bool {
+    fn is_transparent(&self, name: &[u8]) -> bool {
         let by_name = self.by_name.get(name).copied().flatten();
         let by_word = || self.by_word.get(first_word(name)).copied().flatten();
         by_name.or_else(by_word).unwrap_or(false)
+    }
+}
+
+/// What is kept of the libraries, to read a part of the same file.
+#[derive(Clone, Default)]
+pub(super) struct KnownMaterials {
+    /// The transparent ones of those that the file uses.
+    transparent: BTreeSet<Vec<u8>>,
+    /// The libraries and the textures that they name.
+    pub(super) files: Vec<PathBuf>,
+    /// The first library that could not be read: the `mtllib` text that names it, its path, and why.
+    pub(super) unread: Option<(Vec<u8>, PathBuf, String)>,
+}
+
+impl KnownMaterials {
+    /// As [`Materials::read`].
+    pub(super) fn read<'a>(
+        libraries: &BTreeMap<&[u8], usize>,
+        used: impl Iterator<Item = &'a [u8]> + Clone,
+        surroundings: Surroundings<'_>,
+        limits: &Limits,
+    ) -> Self {
+        let materials = Materials::read(libraries, used.clone(), surroundings, limits);
+        let transparent = used.filter(|name| materials.is_transparent(name));
+        let unread = materials.unread.as_ref().and_then(|(at, path, why)| {
+            let mut libraries = libraries.iter();
+            let (text, _) = libraries.find(|&(_, named_at)| named_at == at)?;
+            Some((text.to_vec(), path.clone(), why.clone()))
+        });
+        Self {
+            transparent: transparent.map(<[u8]>::to_vec).collect(),
+            unread,
+            files: materials.files.into_iter().collect(),
+        }
+    }
+
+    /// As [`Materials::is_transparent`].
+    pub(super) fn is_transparent(&self, name: &[u8]) -> bool {
+        self.transparent.contains(name)
     }
 }
 

@@ -40,7 +40,8 @@
 //!
 //! [`reader`] finds the statements and [`statement`] cuts them, [`runs`] and [`state`] tell which faces
 //! may change places, [`comments`] keeps data in comments,
-//! [`mod@materials`] and [`paths`] read the other files that it names, [`notation`] writes corners, [`attributes`] reads values.
+//! [`mod@materials`] and [`paths`] read the other files that it names, [`notation`] writes corners, [`select`] what a
+//! selection leaves, [`attributes`] reads values.
 
 mod attributes;
 mod comments;
@@ -50,22 +51,22 @@ mod obstacles;
 mod paths;
 mod reader;
 mod runs;
+mod select;
 mod state;
 mod statement;
 
-use std::path::PathBuf;
-
 use crate::Mesh;
+use crate::files::bonds::Bonds;
 use crate::files::content::ReadResult;
 use crate::files::entry::MeshEntry;
-use crate::files::error::{FileErrorKind, Place};
+use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
 use crate::files::orders::RecordOrders;
-use crate::files::record_file::RecordFile;
+use crate::files::record_file::{RecordFile, RecordRead};
 use crate::files::surroundings::Surroundings;
 use crate::files::text::{content_end, line_of, shown};
-use materials::Materials;
+use materials::KnownMaterials;
 use notation::ObjNotation;
 use reader::ObjReader;
 
@@ -75,12 +76,30 @@ pub(super) fn read(
     surroundings: Surroundings<'_>,
     options: &ReadOptions,
 ) -> ReadResult {
+    let (file, notes) = read_file(bytes, Libraries::Read(surroundings), options)?;
+    Ok((Box::new(file), notes))
+}
+
+/// Where it is told which materials are transparent.
+#[derive(Clone, Copy)]
+enum Libraries<'a> {
+    /// In files that are to be read.
+    Read(Surroundings<'a>),
+    /// In files that have been read.
+    Known(&'a ObjNotation),
+}
+
+fn read_file(
+    bytes: Vec<u8>,
+    libraries: Libraries<'_>,
+    options: &ReadOptions,
+) -> Result<RecordRead<ObjNotation>, Problem> {
     let mut reader = ObjReader::new(&bytes[..content_end(&bytes)], options);
     reader
         .statements()
         .map_err(|fault| fault.on_its_line(&bytes))?;
     let mut notes = Vec::new();
-    let companions = materials(&mut reader, surroundings, options, &mut notes);
+    let materials = materials(&mut reader, libraries, options, &mut notes);
     reader.check().map_err(|fault| fault.on_its_line(&bytes))?;
     let attributes = reader.attributes();
     let ObjReader {
@@ -92,9 +111,16 @@ pub(super) fn read(
         name,
         obstacle,
         face_obstacle,
+        bond,
         comments,
         ..
     } = reader;
+    let place = |at: usize| Place::Line(line_of(&bytes, at));
+    let bond = bond.map(|(at, why)| Note::vertices_stay(place(at), why));
+    let face_obstacle = face_obstacle.map(|(at, comments)| {
+        let why = format!("the comments {comments:?} may go by their order");
+        Note::faces_stay(place(at), why)
+    });
 
     let mut entries = Vec::new();
     if records.len() == 0 {
@@ -102,15 +128,10 @@ pub(super) fn read(
     } else {
         let vertices_movable = obstacle.is_none();
         if let Some((at, why)) = obstacle {
-            let place = Place::Line(line_of(&bytes, at));
-            notes.push(Note::vertices_stay(place, why));
+            notes.push(Note::vertices_stay(place(at), why));
         }
         let faces_movable = face_obstacle.is_none();
-        if let Some((at, comments)) = face_obstacle {
-            let place = Place::Line(line_of(&bytes, at));
-            let why = format!("the comments {comments:?} may go by their order");
-            notes.push(Note::faces_stay(place, why));
-        }
+        notes.extend(face_obstacle.clone());
         let name = name.map_or_else(
             || "mesh".to_owned(),
             |span| String::from_utf8_lossy(&bytes[span]).into_owned(),
@@ -134,7 +155,7 @@ pub(super) fn read(
         attributes,
         definitions: runs.definitions,
         colors: comments.colors,
-        companions,
+        materials,
     };
     let file = RecordFile {
         source: bytes,
@@ -145,27 +166,38 @@ pub(super) fn read(
         notation,
         entries,
         orders: RecordOrders::default(),
+        bonds: Bonds {
+            of_faces: face_obstacle,
+            of_vertices: bond,
+        },
+        options: options.clone(),
+        read_again: |file, bytes| read_file(bytes, Libraries::Known(&file.notation), &file.options),
     };
-    Ok((Box::new(file), notes))
+    Ok((file, notes))
 }
 
-/// Reads the libraries of materials, and keeps transparent faces where they are. The files that come
-/// along.
+/// Reads the libraries of materials, and keeps transparent faces where they are.
 fn materials(
     reader: &mut ObjReader<'_>,
-    surroundings: Surroundings<'_>,
+    libraries: Libraries<'_>,
     options: &ReadOptions,
     notes: &mut Vec<Note>,
-) -> Vec<PathBuf> {
+) -> KnownMaterials {
     let ObjReader { runs, faces, .. } = reader;
-    let libraries = &runs.state.libraries;
-    let used = runs.materials();
-    let has_materials = used.clone().next().is_some();
-    let materials = Materials::read(libraries, used, surroundings, &options.limits);
+    let named = &runs.state.libraries;
+    let has_materials = runs.materials().next().is_some();
+    let materials = match libraries {
+        Libraries::Read(surroundings) => {
+            let used = runs.materials();
+            KnownMaterials::read(named, used, surroundings, &options.limits)
+        }
+        Libraries::Known(notation) => notation.materials.clone(),
+    };
 
     if !options.reorder_transparent {
-        if let Some((at, path, why)) = materials.unread.as_ref().filter(|_| has_materials) {
-            let place = Place::Line(line_of(reader.source, *at));
+        if let Some((text, path, why)) = materials.unread.as_ref().filter(|_| has_materials) {
+            let at = named.get(text.as_slice()).copied().unwrap_or(0);
+            let place = Place::Line(line_of(reader.source, at));
             let path = path.display();
             let text = format!(
                 "whether materials are transparent cannot be told, so their faces move: {path}: {why}"
@@ -181,5 +213,5 @@ fn materials(
             notes.push(note);
         }
     }
-    materials.files.into_iter().collect()
+    materials
 }

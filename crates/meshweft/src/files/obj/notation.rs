@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::attributes::ObjAttributes;
+use super::materials::KnownMaterials;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::files::definitions::Definitions;
 use crate::files::error::Problem;
@@ -19,8 +20,8 @@ pub(super) struct ObjNotation {
     pub(super) definitions: Definitions,
     /// The colors in comments, if any one for each vertex.
     pub(super) colors: Spans,
-    /// The libraries of materials and their textures.
-    pub(super) companions: Vec<PathBuf>,
+    /// What the libraries of materials say, and where they are.
+    pub(super) materials: KnownMaterials,
 }
 
 impl Notation for ObjNotation {
@@ -83,7 +84,7 @@ impl Notation for ObjNotation {
     }
 
     fn companions(&self) -> Vec<PathBuf> {
-        self.companions.clone()
+        self.materials.files.clone()
     }
 
     fn attributes(&self) -> Vec<AttributeInfo> {
@@ -114,7 +115,7 @@ mod tests {
             },
             definitions: Definitions::new(),
             colors: Spans::new(),
-            companions: Vec::new(),
+            materials: KnownMaterials::default(),
         };
         let settled = |record: &str| {
             let mut out = Vec::new();

@@ -7,6 +7,8 @@ impl ObjReader<'_> {
     /// Whether all numbers name vertices, and what must stay: all vertices and runs are known.
     pub(super) fn check(&mut self) -> Result<(), Fault> {
         self.check_range()?;
+        // Unknown statements; where the vertices stand is no matter when some of them leave.
+        self.bond = self.obstacle.clone();
         self.check_late_vertex();
         self.check_comments()?;
         self.check_attributes();
@@ -43,6 +45,7 @@ impl ObjReader<'_> {
     fn check_comments(&mut self) -> Result<(), Fault> {
         let vertex_count = self.vertices.len();
         if let Some((at, why)) = self.comments.vertex_obstacle(vertex_count) {
+            self.bond.get_or_insert_with(|| (at, why.clone()));
             self.keep_vertices(at, why);
         }
         let of_vertices = self.comments.unknown(vertex_count, self.options);
@@ -56,6 +59,7 @@ impl ObjReader<'_> {
         match of_vertices {
             Some((at, word)) => {
                 let why = format!("the comments {word:?} may go by their order");
+                self.bond.get_or_insert_with(|| (at, why.clone()));
                 self.keep_vertices(at, why);
             }
             None => self.face_obstacle = of_faces,
@@ -71,6 +75,7 @@ impl ObjReader<'_> {
                 let why = format!(
                     "the {keyword} lines, one for each and not used by any face, may belong to them"
                 );
+                self.bond.get_or_insert_with(|| (seen.first, why.clone()));
                 self.obstacle.get_or_insert((seen.first, why));
             }
         }

@@ -30,6 +30,8 @@ pub(super) struct ObjReader<'a> {
     pub(super) name: Option<Range<usize>>,
     /// Why the vertices cannot move, and where that was found.
     pub(super) obstacle: Option<(usize, String)>,
+    /// What may be about the vertices by their numbers or their order, and where that was found.
+    pub(super) bond: Option<(usize, String)>,
     /// The comments that may go by the order of the faces, and where the first is.
     pub(super) face_obstacle: Option<(usize, String)>,
     pub(super) comments: Comments<'a>,
@@ -86,6 +88,7 @@ impl<'a> ObjReader<'a> {
             largest: 0,
             name: None,
             obstacle: None,
+            bond: None,
             face_obstacle: None,
             comments: Comments::new(source),
             late_vertex: None,

@@ -27,6 +27,15 @@ pub(super) struct OffHeader {
     pub(super) ends_line: bool,
     /// Where the records start.
     pub(super) body: usize,
+    pub(super) counts: CountSpans,
+}
+
+/// Where the header says how many of what there are.
+pub(super) struct CountSpans {
+    pub(super) vertices: Range<usize>,
+    pub(super) faces: Range<usize>,
+    /// If it says so.
+    pub(super) edges: Option<Range<usize>>,
 }
 
 /// Reads the keyword and the counts. The number of edges may be missing where the counts end their line.
@@ -78,9 +87,14 @@ pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader
         .saturating_add(colour + texture);
 
     let place = token.start;
-    let vertex_count = count(lines, token, "number of vertices")?;
-    let token = next(lines, "the header")?;
-    let face_count = count(lines, token, "number of faces")?;
+    let vertex_count = count(lines, token.clone(), "number of vertices")?;
+    let face_token = next(lines, "the header")?;
+    let face_count = count(lines, face_token.clone(), "number of faces")?;
+    let mut counts = CountSpans {
+        vertices: token,
+        faces: face_token,
+        edges: None,
+    };
 
     // The number of edges is of no use here, and often wrong.
     let mut has_edges = true;
@@ -95,8 +109,11 @@ pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader
             let text = "after the counts of vertices and faces comes that of edges, or a new line";
             return Err(lines.malformed(third.start, text));
         }
-        [_] => {}
-        [_, first, ..] => (ends_line, body) = (false, first.start),
+        [edges] => counts.edges = Some(edges.clone()),
+        [edges, first, ..] => {
+            (ends_line, body) = (false, first.start);
+            counts.edges = Some(edges.clone());
+        }
     }
 
     let checked = check_vertex_count(vertex_count, limits);
@@ -113,6 +130,7 @@ pub(super) fn header(lines: &mut Lines<'_>, limits: &Limits) -> Result<OffHeader
         has_edges,
         ends_line,
         body,
+        counts,
     })
 }
 

@@ -29,28 +29,33 @@
 mod columns;
 mod header;
 mod lines;
+mod notation;
 mod records;
+mod select;
 
+use super::bonds::Bonds;
 use super::content::ReadResult;
 use super::entry::MeshEntry;
-use super::error::no_attribute;
 use super::error::{FileErrorKind, Place, Problem};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::RecordOrders;
-use super::record_file::RecordFile;
-use super::rewrite::{Notation, Rewrite, StoredMesh, vertex_from_zero};
+use super::record_file::{RecordFile, RecordRead};
 use super::slots::Spans;
-use super::text::{content_end, whole_number};
+use super::text::content_end;
 use crate::Mesh;
-use crate::attribute::{Attribute, AttributeInfo};
 use crate::index::index32;
-use columns::OffColumn;
-use lines::{FreeTokens, Lines};
+use lines::Lines;
+use notation::OffNotation;
 use records::{FaceLines, OffRecords};
 
 /// Reads an OFF file.
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
+    let (file, notes) = read_file(bytes, options)?;
+    Ok((Box::new(file), notes))
+}
+
+fn read_file(bytes: Vec<u8>, options: &ReadOptions) -> Result<RecordRead<OffNotation>, Problem> {
     let limits = &options.limits;
     let mark = b"\xef\xbb\xbf";
     let text = &bytes[..content_end(&bytes)];
@@ -110,43 +115,13 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         lines: Spans::new(),
         notation: OffNotation {
             columns: columns::columns(&header, &vertex_colours, &colours),
+            counts: header.counts,
         },
         entries,
         orders: RecordOrders::default(),
+        bonds: Bonds::default(),
+        options: options.clone(),
+        read_again: |file, bytes| read_file(bytes, &file.options),
     };
-    Ok((Box::new(file), notes))
-}
-
-/// How corners stand in face lines: after their number. And what else lines hold.
-struct OffNotation {
-    columns: Vec<OffColumn>,
-}
-
-impl Notation for OffNotation {
-    fn write_face(&self, record: &[u8], rewrite: Rewrite<'_>) {
-        let mut tokens = FreeTokens::new(record, 0);
-        let corner_count = tokens.next().and_then(|token| whole_number(&record[token]));
-        let corner_count = corner_count.and_then(|n| usize::try_from(n).ok());
-        rewrite.corners.clear();
-        rewrite
-            .corners
-            .extend(tokens.take(corner_count.unwrap_or(0)));
-        rewrite.write_corners(record, 0, vertex_from_zero);
-    }
-
-    fn attributes(&self) -> Vec<AttributeInfo> {
-        let infos = self.columns.iter().map(|column| column.info.clone());
-        infos.collect()
-    }
-
-    fn attribute(
-        &self,
-        stored: &StoredMesh<'_>,
-        info: &AttributeInfo,
-    ) -> Result<Attribute, Problem> {
-        let mut columns = self.columns.iter();
-        let column = columns.find(|column| column.info == *info);
-        let column = column.ok_or_else(|| no_attribute(info))?;
-        column.read(stored)
-    }
+    Ok((file, notes))
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::header::{Element, PlyHeader, PropertyKind};
+use super::header::{COMPANION, Element, PlyHeader, PropertyKind};
 use super::plan::Plan;
 use super::rows::{PlyRows, Row, TriangleLayout};
 use crate::files::error::{Fault, FileErrorKind};
@@ -41,7 +41,7 @@ pub(super) fn read<R: PlyRows>(
         match element.name.as_str() {
             "vertex" => read_vertices(&mut rows, element, &mut body)?,
             "face" => read_faces(&mut rows, element, header, limits, &mut body)?,
-            "multi_texture_face" if element.count == face_count && plan.face_obstacle.is_none() => {
+            COMPANION if element.count == face_count && plan.face_obstacle.is_none() => {
                 let mut spans = Spans::new();
                 pass_over(&mut rows, element, |_, span| spans.push(span))?;
                 body.companions.push(spans);

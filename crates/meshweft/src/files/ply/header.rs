@@ -5,6 +5,9 @@ use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::note::Note;
 use crate::files::text::{is_blank, is_line_end, line_of, shown, whole_number};
 
+/// The element whose rows go with the faces one by one, if there are as many.
+pub(super) const COMPANION: &str = "multi_texture_face";
+
 /// How the rows are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {

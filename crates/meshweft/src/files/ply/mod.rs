@@ -26,7 +26,7 @@
 //!
 //! [`header`] says what is in the file, [`plan`] what may move, [`rows`] reads values and [`body`]
 //! whole elements, [`notation`] writes corners, [`attributes`] reads what is stored with them, as
-//! the types of [`number`]. [`strips`] makes faces of strips, [`mod@create`] a file of a new mesh.
+//! the types of [`number`]. [`select`] writes what a selection leaves. [`strips`] makes faces of strips, [`mod@create`] a file of a new mesh.
 
 mod attributes;
 mod body;
@@ -36,18 +36,20 @@ mod notation;
 mod number;
 mod plan;
 mod rows;
+mod select;
 mod strips;
 
 use crate::Mesh;
+use crate::files::bonds::Bonds;
 use crate::files::content::ReadResult;
 use crate::files::entry::MeshEntry;
-use crate::files::error::{FileErrorKind, Place};
+use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::{check_face_count, check_vertex_count};
 use crate::files::new_mesh::NewMesh;
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
 use crate::files::orders::RecordOrders;
-use crate::files::record_file::RecordFile;
+use crate::files::record_file::{RecordFile, RecordRead};
 use crate::files::slots::Spans;
 use crate::files::text::line_of;
 use crate::index::index32;
@@ -72,6 +74,11 @@ pub(super) fn create(meshes: &[NewMesh<'_>]) -> ReadResult {
 
 /// Reads a PLY file.
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
+    let (file, notes) = read_file(bytes, options)?;
+    Ok((Box::new(file), notes))
+}
+
+fn read_file(bytes: Vec<u8>, options: &ReadOptions) -> Result<RecordRead<PlyNotation>, Problem> {
     let limits = &options.limits;
     let header = header::read(&bytes)?;
     if options.strips_to_lists
@@ -79,9 +86,9 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     {
         let mut options = options.clone();
         options.strips_to_lists = false;
-        let (content, mut notes) = read(bytes, &options)?;
+        let (file, mut notes) = read_file(bytes, &options)?;
         notes.insert(0, note);
-        return Ok((content, notes));
+        return Ok((file, notes));
     }
     let plan = Plan::new(&header, options)?;
     let at_header = |element: &Element, kind: FileErrorKind| kind.at(Place::Line(element.line));
@@ -113,10 +120,16 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
             _ => Place::Byte(fault.at),
         })
     })?;
-    finish(bytes, header, plan, body)
+    finish(bytes, header, plan, body, options)
 }
 
-fn finish(bytes: Vec<u8>, header: PlyHeader, plan: Plan, body: Body) -> ReadResult {
+fn finish(
+    bytes: Vec<u8>,
+    header: PlyHeader,
+    plan: Plan,
+    body: Body,
+    options: &ReadOptions,
+) -> Result<RecordRead<PlyNotation>, Problem> {
     let mut notes: Vec<Note> = header.foreign.iter().cloned().collect();
     let mut entries = Vec::new();
     let record_count = body.records.len();
@@ -148,22 +161,26 @@ fn finish(bytes: Vec<u8>, header: PlyHeader, plan: Plan, body: Body) -> ReadResu
             faces_movable: true,
             vertices_movable: plan.vertex_obstacle.is_none(),
         });
-        notes.extend(
-            [plan.vertex_obstacle, plan.face_obstacle]
-                .into_iter()
-                .flatten(),
-        );
+        let obstacles = [&plan.vertex_obstacle, &plan.face_obstacle];
+        notes.extend(obstacles.into_iter().flatten().cloned());
     }
 
     let file = RecordFile {
         source: bytes,
         vertices: body.vertices,
         faces: body.faces,
-        companions: body.companions,
         lines: Spans::new(),
-        notation: PlyNotation::new(header, body.has_texture),
+        notation: PlyNotation::new(header, !body.companions.is_empty(), body.has_texture),
+        companions: body.companions,
         entries,
         orders: RecordOrders::default(),
+        // What may name them by number, or go by their order, would be wrong.
+        bonds: Bonds {
+            of_faces: plan.face_obstacle,
+            of_vertices: plan.vertex_obstacle,
+        },
+        options: options.clone(),
+        read_again: |file, bytes| read_file(bytes, &file.options),
     };
-    Ok((Box::new(file), notes))
+    Ok((file, notes))
 }

@@ -1,7 +1,7 @@
 //! Writing the corners of a PLY face.
 
 use super::attributes::PlyAttributes;
-use super::header::{Element, Encoding, PlyHeader, PropertyKind};
+use super::header::{COMPANION, Element, Encoding, PlyHeader, PropertyKind};
 use super::rows::{Ascii, Binary, PlyRows, Row};
 use crate::attribute::{Attribute, AttributeInfo, ComponentType};
 use crate::files::error::Problem;
@@ -10,10 +10,12 @@ use crate::files::text::Tokens;
 
 /// How corners stand in face rows, and what else rows hold.
 pub(super) struct PlyNotation {
-    encoding: Encoding,
+    pub(super) encoding: Encoding,
     vertex: Option<Element>,
     /// The face element, and which of its properties is the list of corners.
-    face: Option<(Element, usize)>,
+    pub(super) face: Option<(Element, usize)>,
+    /// The element whose rows go with the faces.
+    pub(super) companion: Option<Element>,
     /// How many bytes of a binary row come before the first corner, and the type of corners, where
     /// that is the same in all rows.
     first_corner: Option<(usize, ComponentType)>,
@@ -21,14 +23,16 @@ pub(super) struct PlyNotation {
 }
 
 impl PlyNotation {
-    /// `has_texture`: as [`PlyAttributes::has_texture`].
-    pub(super) fn new(header: PlyHeader, has_texture: bool) -> Self {
+    /// `has_companion`: whether rows go with the faces; `has_texture`: as
+    /// [`PlyAttributes::has_texture`].
+    pub(super) fn new(header: PlyHeader, has_companion: bool, has_texture: bool) -> Self {
         let encoding = header.encoding;
-        let (mut vertex, mut face) = (None, None);
+        let (mut vertex, mut face, mut companion) = (None, None, None);
         for element in header.elements {
             match element.name.as_str() {
                 "vertex" => vertex = Some(element),
                 "face" => face = element.corner_list().map(|list| (element, list)),
+                COMPANION if has_companion => companion = Some(element),
                 _ => {}
             }
         }
@@ -36,11 +40,23 @@ impl PlyNotation {
             encoding,
             vertex,
             face,
+            companion,
             first_corner: None,
             has_texture,
         };
         notation.first_corner = notation.find_first_corner();
         notation
+    }
+
+    /// Whether rows of faces, or those that go with them, may hold something for each corner.
+    pub(super) fn has_lists(&self) -> bool {
+        let count = |element: &Element| {
+            let properties = element.properties.iter();
+            let lists = properties.filter(|p| matches!(p.kind, PropertyKind::List { .. }));
+            lists.count()
+        };
+        let of_faces = self.face.as_ref().map_or(0, |(element, _)| count(element));
+        of_faces > 1 || self.companion.as_ref().map_or(0, count) > 0
     }
 
     fn stored_values(&self) -> PlyAttributes<'_> {

@@ -1,6 +1,6 @@
 //! What of a PLY file may move, decided from its header alone.
 
-use super::header::{Element, PlyHeader, PropertyKind};
+use super::header::{COMPANION, Element, PlyHeader, PropertyKind};
 use crate::files::error::{Place, Problem};
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
@@ -52,7 +52,7 @@ impl Plan {
                 "vertex" => plan.look_at_vertex(element),
                 "face" => plan.look_at_face(element, header.vertex_count()),
                 name if NAME_NOTHING.contains(&name) || options.is_assumed_safe(name) => {}
-                "multi_texture_face" if face.is_some_and(|face| face.count == element.count) => {
+                COMPANION if face.is_some_and(|face| face.count == element.count) => {
                     // Its lists are one entry a corner.
                     plan.corners_turnable = false;
                 }

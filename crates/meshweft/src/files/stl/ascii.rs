@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use super::attributes::{normal, position, positions};
-use super::facets::Facets;
+use super::facets::{FacetPlaces, Facets};
 use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::files::error::no_attribute;
 use crate::files::error::{FileErrorKind, Place, Problem};
@@ -213,6 +213,29 @@ impl AsciiStlReader<'_> {
     fn problem(&self, at: usize, kind: FileErrorKind) -> Problem {
         kind.at(Place::Line(line_of(self.text, at)))
     }
+}
+
+/// Where the numbers of the facet at `span` stand; `None` if that is not a facet.
+pub(super) fn places(source: &[u8], span: Range<usize>) -> Option<FacetPlaces> {
+    let mut tokens = Tokens::plain(&source[..span.end], span.start);
+    let mut three = |skipped: usize| {
+        let mut tokens = tokens.by_ref().skip(skipped);
+        Some([tokens.next()?, tokens.next()?, tokens.next()?])
+    };
+    // "facet normal i j k outer loop", then three times "vertex x y z".
+    let normal = three(2)?;
+    let corners = [three(3)?, three(1)?, three(1)?];
+    let mut positions = [[0.0; 3]; 3];
+    for (position, corner) in positions.iter_mut().zip(&corners) {
+        for (value, token) in position.iter_mut().zip(corner) {
+            *value = coordinate(&source[token.clone()])?;
+        }
+    }
+    Some(FacetPlaces {
+        normal,
+        corners: corners.map(|[x, _, z]| x.start..z.end),
+        positions,
+    })
 }
 
 /// Exchanges the positions of a facet, each with what stands between its numbers.

@@ -1,7 +1,9 @@
 //! Binary STL: 80 bytes of anything, a count, 50 bytes a facet.
 
+use std::ops::Range;
+
 use super::attributes::{self, attribute_bytes, normal, position};
-use super::facets::Facets;
+use super::facets::{FacetPlaces, Facets};
 use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::files::decoded::note_floats;
 use crate::files::error::no_attribute;
@@ -18,9 +20,12 @@ const FACET: usize = 50;
 const NORMAL: usize = 12;
 const POSITION: usize = 12;
 
+/// Where the number of facets stands.
+pub(super) const COUNT: Range<usize> = HEADER - 4..HEADER;
+
 /// The number of facets that the header promises, if there is a header.
 fn promised(bytes: &[u8]) -> Option<u32> {
-    let count = bytes.get(HEADER - 4..HEADER)?;
+    let count = bytes.get(COUNT)?;
     Some(u32::from_le_bytes(count.try_into().ok()?))
 }
 
@@ -81,6 +86,23 @@ fn positions(facet: &[u8]) -> [[u32; 3]; 3] {
         *value = u32::from_le_bytes(*bytes);
     }
     bits
+}
+
+/// Where the numbers of the facet at `span` stand.
+pub(super) fn places(source: &[u8], span: Range<usize>) -> FacetPlaces {
+    let at = |offset: usize, length: usize| {
+        [0, 1, 2].map(|i| {
+            let start = span.start + offset + i * length;
+            start..start + length
+        })
+    };
+    let bits = positions(&source[span.clone()]);
+    note_floats(9);
+    FacetPlaces {
+        normal: at(0, NORMAL / 3),
+        corners: at(NORMAL, POSITION),
+        positions: bits.map(|corner| corner.map(f32::from_bits)),
+    }
 }
 
 /// Turns the three positions of a facet.

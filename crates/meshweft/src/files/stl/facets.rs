@@ -1,5 +1,7 @@
 //! The facets of an STL file, binary or ascii.
 
+use std::ops::Range;
+
 use crate::files::slots::Spans;
 
 /// The facets of a file.
@@ -10,4 +12,13 @@ pub(super) struct Facets {
     /// The facets at which a `solid` starts.
     pub(super) runs: Vec<u32>,
     pub(super) name: String,
+}
+
+/// Where the numbers of a facet stand, and what they are.
+pub(super) struct FacetPlaces {
+    /// The three numbers of its normal.
+    pub(super) normal: [Range<usize>; 3],
+    /// Its corners, each three numbers with what is between.
+    pub(super) corners: [Range<usize>; 3],
+    pub(super) positions: [[f32; 3]; 3],
 }

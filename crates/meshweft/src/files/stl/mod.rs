@@ -13,52 +13,100 @@
 //!
 //! Attributes: the position of each vertex, and of each face its normal as it is stored, whatever
 //! that is; of a binary file also the two bytes at the end of a facet, as a number.
+//!
+//! [`mod@ascii`] and [`binary`] find the [`facets`], [`attributes`] reads their values, and [`select`]
+//! writes those that a selection leaves.
 
 mod ascii;
 mod attributes;
 mod binary;
 mod facets;
+mod select;
 
 use std::collections::HashMap;
 
+use super::bonds::Bonds;
 use super::content::ReadResult;
 use super::entry::MeshEntry;
-use super::error::{FileErrorKind, Place};
+use super::error::{FileErrorKind, Place, Problem};
 use super::face_records::{FaceRecords, check_vertex_count};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::RecordOrders;
-use super::record_file::RecordFile;
-use super::rewrite::Notation;
+use super::record_file::{ReadAgain, RecordFile, RecordRead};
 use super::slots::Spans;
 use crate::Mesh;
 use crate::index::index32;
 use crate::limits::Limits;
+use ascii::AsciiNotation;
+use binary::BinaryNotation;
 use facets::Facets;
 
 /// Reads an STL file.
 ///
 /// Time O(bytes + vertices log vertices), memory a few times the bytes.
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
-    let limits = &options.limits;
     match ascii::start(&bytes) {
         Some(at) if !binary::is_sure(&bytes) => {
-            let facets = ascii::read(&bytes, at, limits)?;
-            content(bytes, facets, ascii::AsciiNotation, limits)
+            let (file, notes) = read_ascii(bytes, at, options)?;
+            Ok((Box::new(file), notes))
         }
         _ => {
-            let facets = binary::read(&bytes, limits)?;
-            content(bytes, facets, binary::BinaryNotation, limits)
+            let (file, notes) = read_binary(bytes, options)?;
+            Ok((Box::new(file), notes))
         }
     }
 }
 
-fn content<N: Notation + 'static>(
+fn read_ascii(
+    bytes: Vec<u8>,
+    at: usize,
+    options: &ReadOptions,
+) -> Result<RecordRead<AsciiNotation>, Problem> {
+    let facets = ascii::read(&bytes, at, &options.limits)?;
+    file(
+        bytes,
+        facets,
+        AsciiNotation,
+        options,
+        |file, bytes| match ascii::start(&bytes).filter(|_| !binary::is_sure(&bytes)) {
+            Some(at) => read_ascii(bytes, at, &file.options),
+            None => Err(another_kind()),
+        },
+    )
+}
+
+fn read_binary(
+    bytes: Vec<u8>,
+    options: &ReadOptions,
+) -> Result<RecordRead<BinaryNotation>, Problem> {
+    let facets = binary::read(&bytes, &options.limits)?;
+    file(
+        bytes,
+        facets,
+        BinaryNotation,
+        options,
+        |file, bytes| match ascii::start(&bytes).is_some() && !binary::is_sure(&bytes) {
+            true => Err(another_kind()),
+            false => read_binary(bytes, &file.options),
+        },
+    )
+}
+
+/// The problem of a file that is not what it was any more.
+fn another_kind() -> Problem {
+    let text = "it could be taken for ascii or for binary: begin it with another word than solid";
+    FileErrorKind::malformed(text).at(Place::File)
+}
+
+fn file<N>(
     source: Vec<u8>,
     facets: Facets,
     notation: N,
-    limits: &Limits,
-) -> ReadResult {
+    options: &ReadOptions,
+    read_again: ReadAgain<N>,
+) -> Result<RecordRead<N>, Problem> {
+    let limits = &options.limits;
     let (mut entries, mut notes) = (Vec::new(), Vec::new());
     if facets.corners.is_empty() {
         notes.push(Note::nothing_to_order());
@@ -85,8 +133,11 @@ fn content<N: Notation + 'static>(
         notation,
         entries,
         orders: RecordOrders::default(),
+        bonds: Bonds::default(),
+        options: options.clone(),
+        read_again,
     };
-    Ok((Box::new(file), notes))
+    Ok((file, notes))
 }
 
 /// The mesh in which positions of the same bits are one vertex; vertices are sorted by bits.
