@@ -1,6 +1,9 @@
 //! Any bytes as a GLB and as the JSON of a glTF: an error, or a scene whose faces and vertices can
-//! be reversed without losing a triangle, and to which meshes can be added or nothing changes.
+//! be reversed without losing a triangle, of which some can be selected, and to which meshes can be added,
+//! or nothing changes.
 #![no_main]
+
+mod selection;
 
 use std::path::Path;
 
@@ -33,6 +36,11 @@ fn check(data: &[u8], format: Format, path: &Path) {
     assert_eq!(main_bytes(&document), data);
     reverse(&mut document);
     assert_same(&document, &written(&document));
+    if let Ok(mut document) = Document::from_bytes(data.to_vec(), format, path, Limits::default()) {
+        reverse(&mut document);
+        selection::check(&mut document);
+        assert_same(&document, &written(&document));
+    }
     if append(&mut document) {
         assert_same(&document, &written(&document));
         reverse(&mut document);

@@ -100,7 +100,7 @@ impl PlannedTriangle {
 #[derive(Debug)]
 pub(super) struct PlannedVertices {
     pub(super) group: usize,
-    /// The old numbers of those that stay, rising.
+    /// The old numbers of those that stay, rising (or in the order of [`in_order`](Self::in_order)).
     pub(super) kept: Vec<u32>,
     /// The new number of each old vertex, [`LEFT_OUT`] for those that leave.
     pub(super) old_to_new: Vec<u32>,
@@ -112,6 +112,21 @@ pub(super) struct PlannedVertices {
 pub(super) const LEFT_OUT: u32 = u32::MAX;
 
 impl PlannedVertices {
+    /// Those that stay, in the order that was asked for; with nothing to follow.
+    pub(super) fn in_order(mut self) -> Self {
+        self.kept = self.order.permutation().apply(&self.kept);
+        for (new, &old) in (0..).zip(&self.kept) {
+            self.old_to_new[old as usize] = new;
+        }
+        self.order = VertexOrder::identity(self.kept.len());
+        self
+    }
+
+    /// Whether all vertices stay where they are.
+    pub(super) fn is_identity(&self) -> bool {
+        self.are_all() && self.kept.is_sorted()
+    }
+
     /// Whether all vertices stay.
     pub(super) fn are_all(&self) -> bool {
         self.kept.len() == self.old_to_new.len()

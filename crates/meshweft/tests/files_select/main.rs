@@ -2,15 +2,21 @@
 #![cfg(feature = "files")]
 #![expect(clippy::cast_possible_truncation, reason = "test meshes are small")]
 
+#[path = "../files_gltf/builder.rs"]
+mod builder;
 mod choice;
 #[path = "../data/folder.rs"]
 mod data;
 mod edges;
+mod gltf;
+mod gltf_edges;
 mod obj;
 #[path = "../files_random/mod.rs"]
 mod random;
 mod real;
 mod records;
+#[path = "../../../../fuzz/fuzz_targets/selection/mod.rs"]
+mod selection;
 #[path = "../files_text/simple.rs"]
 mod simple;
 #[path = "../files_text/simple_stl.rs"]
@@ -28,6 +34,8 @@ pub(crate) fn name_of(format: Format) -> &'static Path {
         Format::Obj => "mesh.obj",
         Format::Ply => "mesh.ply",
         Format::Stl => "mesh.stl",
+        Format::Glb => "mesh.glb",
+        Format::Gltf => "mesh.gltf",
         _ => "mesh.off",
     })
 }

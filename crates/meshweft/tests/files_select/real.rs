@@ -1,4 +1,4 @@
-//! Real meshes, where they are present: half of the faces with the vertices they use.
+//! Real meshes and scenes, where they are present: half of the faces with the vertices they use.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -114,7 +114,7 @@ fn check_all(most: u64) {
     let mut refused = 0;
     let mut ran = 0;
     let mut larger = 0;
-    for below in ["meshes"] {
+    for below in ["meshes", "gltf"] {
         let (files, too_large) = files_below(&folder.join(below), most);
         larger += too_large;
         for path in files {

@@ -60,7 +60,8 @@ impl GltfFile {
         }
     }
 
-    fn look_at(&self, container: &Container) -> Result<(View, Vec<Note>), Problem> {
+    /// What is seen of the file with another text.
+    pub(super) fn look_at(&self, container: &Container) -> Result<(View, Vec<Note>), Problem> {
         let json = super::read_json(container, &self.options.limits)?;
         let root = Object::new(json.root(), String::new())?;
         super::check_version(&root)?;

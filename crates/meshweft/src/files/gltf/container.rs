@@ -86,29 +86,29 @@ impl Container {
         }
 
         // The chunk with the data, whose header is the last thing before it.
-        let mut grown = 0;
+        let (mut binary_old, mut binary_new) = (0, 0);
         if let Some(BinaryLength { old, new }) = binary {
             let header = [header_word(new)?.as_slice(), &BINARY].concat();
             match old {
                 Some(old) => {
                     let start = after.len() - CHUNK_HEADER;
                     after[start..].copy_from_slice(&header);
-                    grown = new - old;
+                    (binary_old, binary_new) = (old, new);
                 }
                 // It must be the second chunk.
                 None => {
                     after.extend(std::mem::take(&mut tail));
                     tail = std::mem::replace(&mut after, header);
-                    grown = new + CHUNK_HEADER;
+                    binary_new = new + CHUNK_HEADER;
                 }
             }
         }
 
         // The lengths of the whole and of the JSON chunk.
         let length = word(&self.head, 8).unwrap_or_default();
-        let longer = head.len() - json.end + grown;
+        let length = (length + head.len() + binary_new).saturating_sub(json.end + binary_old);
         let json_length = head.len() - HEADER - CHUNK_HEADER;
-        head[8..12].copy_from_slice(&header_word(length + longer)?);
+        head[8..12].copy_from_slice(&header_word(length)?);
         head[12..16].copy_from_slice(&header_word(json_length)?);
         head.append(&mut after);
         Ok(Self {

@@ -189,7 +189,7 @@ impl Entries {
 ///
 /// These are there, for every primitive has a POSITION; and primitives without indices that share some
 /// vertex records share all of them.
-fn corner_records(primitive: &Movable) -> Option<StridedRecords> {
+pub(super) fn corner_records(primitive: &Movable) -> Option<StridedRecords> {
     match (&primitive.draws, &primitive.indices) {
         (Draws::Other(_), _) => None,
         (_, Some(list)) => Some(list.records),
@@ -281,6 +281,24 @@ fn list_obstacle(
     primitive: &Movable,
     buffers: &Buffers,
 ) -> Option<VertexObstacle> {
+    // If every vertex is named, the smallest and the largest number stay what they are.
+    let bytes = &buffers.storages[list.records.storage].bytes;
+    let would_change =
+        || list.is_bounded && !names_all(bytes, &list.records, primitive.vertex_count);
+    unsound_list(list, primitive, buffers).or_else(|| {
+        would_change().then(|| VertexObstacle {
+            pointer: list.pointer.clone(),
+            why: "the JSON states the smallest and largest index, and they would change".into(),
+        })
+    })
+}
+
+/// Why the numbers of this list cannot be changed, if so.
+pub(super) fn unsound_list(
+    list: &IndexList,
+    primitive: &Movable,
+    buffers: &Buffers,
+) -> Option<VertexObstacle> {
     let bytes = &buffers.storages[list.records.storage].bytes;
     let obstacle = |why: &str| {
         Some(VertexObstacle {
@@ -310,10 +328,6 @@ fn list_obstacle(
         }
     }
 
-    // If every vertex is named, the smallest and the largest number stay what they are.
-    if list.is_bounded && !names_all(bytes, &list.records, primitive.vertex_count) {
-        return obstacle("the JSON states the smallest and largest index, and they would change");
-    }
     None
 }
 

@@ -1,6 +1,6 @@
 //! glTF 2.0, as JSON with buffers beside it or as one binary file: records permuted in the bytes.
 //!
-//! The JSON is read and never written: what a permutation changes are indices and vertex data, and
+//! An order does not write the JSON: what a permutation changes are indices and vertex data, and
 //! those are fixed-size records in buffers. So the JSON of a `.glb` stays byte for byte, and in a
 //! `.gltf` only the text of a changed `data:` URI (or of a renamed buffer file) is replaced.
 //!
@@ -14,6 +14,8 @@
 //! [`notes`] says what stays as it is. Values are read on request: [`attributes`] → [`elements`].
 //! Strips are made lists before all else, if that is asked for: [`strips`].
 //! [`companions`] are the files that it names beside these; [`neighbours`] asks who else names a buffer.
+//! What is left out goes through [`select`]: [`leaving`] moves up the records that stay, [`byte_map`] says
+//! where the rest then stands, [`stated_bounds`] has the smallest and largest values.
 //! What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the bytes and
 //! values, [`growth`] has the buffer for them, [`scene`] finds where they are drawn, [`additions`] puts values into the text.
 //!
@@ -43,6 +45,8 @@
 //! | `View` | all that was found in the JSON (no `bufferView`) |
 //! | `Growth` | the buffer that new bytes go to |
 //! | `Additions` | new values, each with the way to its place |
+//! | `Leaving` | storages from which records leave, in the making |
+//! | `ByteMap` | the bytes that leave, and where the others then stand |
 
 mod accessors;
 mod additions;
@@ -50,6 +54,7 @@ mod append;
 mod attributes;
 mod base64;
 mod buffers;
+mod byte_map;
 mod byte_users;
 mod companions;
 mod container;
@@ -59,6 +64,7 @@ mod extensions;
 mod groups;
 mod growth;
 mod json;
+mod leaving;
 mod movable;
 mod neighbours;
 mod new_attributes;
@@ -70,7 +76,9 @@ mod output;
 mod patch;
 mod primitives;
 mod scene;
+mod select;
 mod sparse;
+mod stated_bounds;
 mod strided_records;
 mod strips;
 mod uri;
@@ -90,6 +98,7 @@ use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::placing::{Beside, Placed};
+use super::select::SelectPlan;
 use super::surroundings::Surroundings;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::limits::Limits;
@@ -388,6 +397,10 @@ impl Content for GltfFile {
                 patch::write_numbers(bytes, records, faces.as_flattened().iter().copied());
             }
         }
+    }
+
+    fn select(&mut self, plan: SelectPlan) -> Result<Vec<Note>, Problem> {
+        GltfFile::select(self, plan)
     }
 
     fn append(
