@@ -241,3 +241,33 @@ fn a_damaged_scene_is_answered() {
     println!("{read} of 4000 damaged scenes were read");
     assert!(read > 100);
 }
+
+#[test]
+fn text_that_is_padded_with_zeros_is_padded_with_blanks() {
+    let (builder, meshes, others) = scene();
+    let mut glb = builder.glb(&meshes, &others);
+    // The blanks at the end of the text; there is always one more member to make some.
+    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    let end = 20 + length;
+    let blanks = glb[..end]
+        .iter()
+        .rev()
+        .take_while(|&&byte| byte == b' ')
+        .count();
+    let padding = [0; 8];
+    glb.splice(end - blanks..end, padding);
+    let new = length - blanks + 8;
+    let (more, total) = (new.next_multiple_of(4) - new, glb.len() - b"behind".len());
+    glb.splice(end - blanks + 8..end - blanks + 8, vec![0; more]);
+    glb[12..16].copy_from_slice(&((new + more) as u32).to_le_bytes());
+    glb[8..12].copy_from_slice(&((total + more) as u32).to_le_bytes());
+
+    let mut scene = open(&glb, Format::Glb);
+    for last in (1..6).rev() {
+        let choice = Choice::of_faces(&scene.meshes()[4], 0..last).with_used();
+        select(&mut scene, &[(4, choice)]).unwrap();
+        assert_read_again(&scene);
+        let (json, binary) = parts(&scene);
+        assert_sound(&json, &binary);
+    }
+}

@@ -68,7 +68,7 @@ impl Container {
         binary: Option<BinaryLength>,
     ) -> Result<Self, Problem> {
         let (mut head, json) = (self.head[..self.json.start].to_vec(), &self.json);
-        head.extend_from_slice(text);
+        head.extend_from_slice(without_zeros(text));
         let mut after = self.head[json.end..].to_vec();
         let mut tail = self.tail.clone();
         if self.is_glb() {
@@ -261,6 +261,12 @@ fn word(bytes: &[u8], start: usize) -> Option<usize> {
     let word = bytes.get(start..start + 4)?;
     let word = u32::from_le_bytes(word.try_into().ok()?);
     usize::try_from(word).ok()
+}
+
+/// A JSON text without the zeros that some writers pad it with, in place of blanks.
+pub(super) fn without_zeros(text: &[u8]) -> &[u8] {
+    let last = text.iter().rposition(|&byte| byte != 0);
+    &text[..last.map_or(0, |last| last + 1)]
 }
 
 /// A byte order mark is not allowed in a glTF, but other loaders skip it.

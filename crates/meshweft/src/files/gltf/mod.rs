@@ -227,12 +227,7 @@ pub(super) fn create(format: Format, name: &Path, meshes: &[NewMesh<'_>]) -> Rea
 
 /// The JSON of a file, parsed.
 fn read_json<'a>(container: &'a Container, limits: &Limits) -> Result<Json<'a>, Problem> {
-    let mut text = &container.head[container.json.clone()];
-    // Some writers pad with zeros and not with blanks.
-    if text.ends_with(b"\0") {
-        let end = text.iter().rposition(|&byte| byte != 0);
-        text = &text[..end.map_or(0, |last| last + 1)];
-    }
+    let text = container::without_zeros(&container.head[container.json.clone()]);
     Json::read(text, limits).map_err(|fault| {
         // In a .gltf, the line and column in the parser's message say where it is.
         let place = match container.is_glb() {
