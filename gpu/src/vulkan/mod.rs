@@ -11,6 +11,7 @@ mod instance;
 mod layout;
 mod pipeline;
 mod queries;
+mod submit;
 mod target;
 
 pub use buffer::Buffer;
