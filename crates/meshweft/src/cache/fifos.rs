@@ -18,16 +18,16 @@ const FIRST_TIME: i32 = 1 << 17;
 /// A clock that has come so far is set back to [`FIRST_TIME`].
 const LAST_TIME: i32 = 1 << 30;
 /// Faces between two looks at the clocks. A face moves them by 3 pushes and a size at most.
-const BLOCK: usize = 1 << 12;
+const FACES_BETWEEN_LOOKS: usize = 1 << 12;
 
 /// A limit that no batch reaches.
 const NO_LIMIT: i32 = i32::MAX;
 
-// What a block adds to a clock at its limit does not overflow.
+// What is added to a clock at its limit before the next look does not overflow.
 const _: () = {
-    let most_in_a_block = BLOCK as u64 * (MAX_CACHE_SIZE as u64 + 4);
+    let most_added = FACES_BETWEEN_LOOKS as u64 * (MAX_CACHE_SIZE as u64 + 4);
     assert!(FIRST_TIME > MAX_CACHE_SIZE as i32 + 1);
-    assert!(LAST_TIME as u64 + most_in_a_block < i32::MAX as u64);
+    assert!(LAST_TIME as u64 + most_added < i32::MAX as u64);
 };
 
 /// A FIFO cache, with the limits of its batches.
@@ -88,11 +88,11 @@ fn misses_from(time: i32, faces: Faces<'_>, limits: [FifoLimits; LANES]) -> [u64
     let has_batches = limits.iter().any(FifoLimits::has_batches);
 
     let mut misses = [0; LANES];
-    for block in faces.as_slice().chunks(BLOCK) {
+    for faces in faces.as_slice().chunks(FACES_BETWEEN_LOOKS) {
         let before = clocks.now;
         let jumped = match has_batches {
-            false => draw(block, &mut clocks, &mut entered),
-            true => draw_in_batches(block, &mut clocks, &mut batches, &mut entered),
+            false => draw(faces, &mut clocks, &mut entered),
+            true => draw_in_batches(faces, &mut clocks, &mut batches, &mut entered),
         };
         for (lane, misses) in misses.iter_mut().enumerate() {
             let pushes = clocks.now[lane] - before[lane] - jumped[lane];
@@ -312,7 +312,7 @@ mod tests {
             ],
         ] {
             let vertex_count = 3000;
-            let faces = soup(&mut random, 5 * BLOCK, vertex_count);
+            let faces = soup(&mut random, 5 * FACES_BETWEEN_LOOKS, vertex_count);
             let limits = models.map(|model| FifoLimits::of(model).unwrap());
             let expected = models.map(|model| replayed(&faces, vertex_count, model));
             for before_the_last in [0, 1, 1000, 10_000, 20_000, 50_000] {
