@@ -61,8 +61,14 @@ pub fn default_mesh_files(data: &Path) -> Vec<PathBuf> {
         "nefertiti.obj.gz",
         "dragon.ply.gz",
     ];
+    named_mesh_files(data, &names)
+}
+
+/// The files of these names in the folder of real meshes.
+#[must_use]
+pub fn named_mesh_files(data: &Path, names: &[&str]) -> Vec<PathBuf> {
     let folder = data.join("meshes");
-    names.map(|name| folder.join(name)).into()
+    names.iter().map(|name| folder.join(name)).collect()
 }
 
 /// Whether it is a VRML file, which [`oracle`] does not read.
@@ -122,6 +128,36 @@ pub fn mesh_name(file: &Path) -> String {
 pub fn needed_data_folder() -> Result<PathBuf, String> {
     let advice = "name mesh files, or set MESHWEFT_DATA to the folder of test data";
     data_folder().ok_or_else(|| advice.to_owned())
+}
+
+/// The files that a user named, or where there are none those that `default` finds in the folder of
+/// test data.
+///
+/// # Errors
+/// If none is named and there is no such folder.
+///
+/// # Panics
+/// As [`data_folder`].
+pub fn files_or(
+    named: Vec<PathBuf>,
+    default: impl FnOnce(&Path) -> Vec<PathBuf>,
+) -> Result<Vec<PathBuf>, String> {
+    match named.is_empty() {
+        true => Ok(default(&needed_data_folder()?)),
+        false => Ok(named),
+    }
+}
+
+/// Each of these files read as a mesh, with its name.
+///
+/// # Errors
+/// If one cannot be read.
+pub fn read_meshes(files: &[PathBuf]) -> Result<Vec<(String, Mesh)>, String> {
+    let read = |file: &PathBuf| {
+        let mesh = oracle::read(file).map_err(|error| error.to_string())?;
+        Ok((mesh_name(file), mesh))
+    };
+    files.iter().map(read).collect()
 }
 
 /// The figure that a cache is judged by: misses per vertex of a GPU, misses per face of any other.

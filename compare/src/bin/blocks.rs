@@ -30,19 +30,15 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), String> {
-    let mut files: Vec<PathBuf> = std::env::args().skip(1).map(PathBuf::from).collect();
-    if files.is_empty() {
-        files = compare::mesh_files(&compare::needed_data_folder()?);
+    let files = std::env::args().skip(1).map(PathBuf::from).collect();
+    let files = compare::files_or(files, |data| {
+        let mut files = compare::mesh_files(data);
         // VRML is not read here, and of those no mesh is large.
         files.retain(|file| !compare::is_vrml(file));
-    }
-    let mut meshes = Vec::new();
-    for file in files {
-        let mesh = compare::oracle::read(&file).map_err(|error| error.to_string())?;
-        if mesh.vertex_count() > BLOCK {
-            meshes.push((compare::mesh_name(&file), mesh));
-        }
-    }
+        files
+    })?;
+    let mut meshes = compare::read_meshes(&files)?;
+    meshes.retain(|(_, mesh)| mesh.vertex_count() > BLOCK);
 
     println!(
         "| mesh | faces | across, stored | across, blocks | overfetch, first use | overfetch, blocks | time of universal fast | of nvidia best |"

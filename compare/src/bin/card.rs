@@ -31,6 +31,14 @@ fn other_caches() -> [CacheModel; OTHERS] {
     })
 }
 
+/// The meshes of the test data that are taken where no files are named.
+const MESHES: [&str; 5] = [
+    "fandisk.off.gz",
+    "bunny.ply.gz",
+    "horse.obj.gz",
+    "nefertiti.obj.gz",
+    "armadillo.obj.gz",
+];
 const OTHERS: usize = Target::UNIVERSAL.len();
 /// Figures of the card.
 const CARD: usize = 4;
@@ -52,24 +60,10 @@ fn run() -> Result<(), String> {
             _ => files.push(PathBuf::from(argument)),
         }
     }
-    let mut meshes = Vec::new();
-    for file in &files {
-        let mesh = compare::oracle::read(file).map_err(|error| error.to_string())?;
-        meshes.push((compare::mesh_name(file), mesh));
-    }
-    if meshes.is_empty() {
-        let data = compare::needed_data_folder()?;
-        for name in [
-            "fandisk.off.gz",
-            "bunny.ply.gz",
-            "horse.obj.gz",
-            "nefertiti.obj.gz",
-            "armadillo.obj.gz",
-        ] {
-            let file = data.join("meshes").join(name);
-            let mesh = compare::oracle::read(&file).map_err(|error| error.to_string())?;
-            meshes.push((compare::mesh_name(&file), mesh));
-        }
+    let is_default = files.is_empty();
+    let files = compare::files_or(files, |data| compare::named_mesh_files(data, &MESHES))?;
+    let mut meshes = compare::read_meshes(&files)?;
+    if is_default {
         meshes.push(("grid 200 x 200".to_owned(), grid(200)));
     }
 

@@ -70,16 +70,11 @@ fn main() -> ExitCode {
         eprintln!("usage: see the head of compare/src/bin/damage.rs");
         return ExitCode::from(2);
     };
-    if options.files.is_empty() {
-        let Some(data) = compare::data_folder() else {
-            eprintln!("error: no test data, and no files named");
-            return ExitCode::FAILURE;
-        };
-        for folder in ["meshes", "gltf", "malformed"] {
-            files_below(&data.join(folder), &mut options.files);
-        }
-        options.files.sort();
-    }
+    let named = std::mem::take(&mut options.files);
+    options.files = match compare::files_or(named, files_of_test_data) {
+        Ok(files) => files,
+        Err(error) => return compare::exit_code(Err(error)),
+    };
     // The text of a panic is printed with the file that caused it.
     std::panic::set_hook(Box::new(|_| {}));
     let mut tally = Tally::default();
@@ -111,6 +106,16 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// All meshes and scenes, sorted by path.
+fn files_of_test_data(data: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for folder in ["meshes", "gltf", "malformed"] {
+        files_below(&data.join(folder), &mut files);
+    }
+    files.sort();
+    files
 }
 
 fn files_below(folder: &Path, files: &mut Vec<PathBuf>) {

@@ -34,11 +34,8 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), String> {
-    let mut files: Vec<PathBuf> = std::env::args().skip(1).map(PathBuf::from).collect();
-    if files.is_empty() {
-        let data = compare::needed_data_folder()?;
-        files = MESHES.map(|name| data.join("meshes").join(name)).to_vec();
-    }
+    let files = std::env::args().skip(1).map(PathBuf::from).collect();
+    let files = compare::files_or(files, |data| compare::named_mesh_files(data, &MESHES))?;
     println!(
         "| mesh | faces |{} time |",
         PARTS.map(|k| format!(" {k} |")).concat()

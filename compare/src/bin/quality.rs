@@ -31,10 +31,7 @@ fn run() -> Result<(), String> {
             _ => files.push(PathBuf::from(argument)),
         }
     }
-    if files.is_empty() {
-        let data = compare::needed_data_folder()?;
-        files = compare::default_mesh_files(&data);
-    }
+    let files = compare::files_or(files, compare::default_mesh_files)?;
     println!(
         "| mesh | order | K=10 | 12 | 16 | 24 | 32 | 64 | NVIDIA | AMD | Intel | Mfaces/s | time |"
     );

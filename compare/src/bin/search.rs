@@ -53,17 +53,8 @@ fn run() -> Result<(), String> {
     if efforts.is_empty() {
         efforts = EFFORTS.to_vec();
     }
-    if files.is_empty() {
-        let data = compare::needed_data_folder()?;
-        files = compare::default_mesh_files(&data);
-    }
-    let meshes: Vec<(String, Mesh)> = files
-        .iter()
-        .map(|file| {
-            let mesh = compare::oracle::read(file).map_err(|error| error.to_string())?;
-            Ok((compare::mesh_name(file), mesh))
-        })
-        .collect::<Result<_, String>>()?;
+    let files = compare::files_or(files, compare::default_mesh_files)?;
+    let meshes = compare::read_meshes(&files)?;
     for target in targets {
         table(target, &efforts, &meshes);
     }

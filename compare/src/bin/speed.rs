@@ -38,17 +38,15 @@ fn main() -> ExitCode {
         growth();
         return ExitCode::SUCCESS;
     }
-    let mut files: Vec<PathBuf> = files.into_iter().map(PathBuf::from).collect();
-    if files.is_empty() {
-        let Some(data) = compare::data_folder() else {
-            eprintln!("name mesh files, or set MESHWEFT_DATA to the folder of test data");
-            return ExitCode::from(2);
-        };
-        files = match flags.contains(&"--all") {
-            true => compare::mesh_files(&data),
-            false => compare::default_mesh_files(&data),
-        };
-    }
+    let files = files.into_iter().map(PathBuf::from).collect();
+    let default = match flags.contains(&"--all") {
+        true => compare::mesh_files,
+        false => compare::default_mesh_files,
+    };
+    let files = match compare::files_or(files, default) {
+        Ok(files) => files,
+        Err(error) => return compare::exit_code(Err(error)),
+    };
     let (vrml, files): (Vec<_>, Vec<_>) =
         files.into_iter().partition(|file| compare::is_vrml(file));
     let result = match flags.contains(&"--memory") {

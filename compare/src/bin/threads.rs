@@ -26,14 +26,11 @@ fn run() -> Result<(), String> {
     if argument.as_deref() == Some("--growth") {
         return growth();
     }
-    let file = match argument {
-        Some(file) => PathBuf::from(file),
-        None => {
-            let data = compare::needed_data_folder()?;
-            data.join("meshes/dragon.ply.gz")
-        }
-    };
-    let mesh = compare::oracle::read(&file).map_err(|error| error.to_string())?;
+    let file = argument.map(PathBuf::from).into_iter().collect();
+    let files = compare::files_or(file, |data| {
+        compare::named_mesh_files(data, &["dragon.ply.gz"])
+    })?;
+    let mesh = compare::oracle::read(&files[0]).map_err(|error| error.to_string())?;
     println!("| order | seconds, one thread | two threads | gain | same output |");
     println!("|---|--:|--:|--:|---|");
     for (name, order) in orders() {

@@ -139,12 +139,13 @@ impl Arguments {
             ));
         }
 
-        if parsed.files.is_empty() {
-            let folder = compare::needed_data_folder()?.join("meshes");
-            let large: &[&str] = if is_all { &LARGE_MESHES } else { &[] };
-            let names = SMALL_MESHES.iter().chain(large);
-            parsed.files = names.map(|name| folder.join(name)).collect();
-        }
+        parsed.files = compare::files_or(parsed.files, |data| {
+            let mut files = compare::named_mesh_files(data, &SMALL_MESHES);
+            if is_all {
+                files.extend(compare::named_mesh_files(data, &LARGE_MESHES));
+            }
+            files
+        })?;
         Ok(parsed)
     }
 }
