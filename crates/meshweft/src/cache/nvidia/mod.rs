@@ -27,8 +27,10 @@
 
 mod batcher;
 mod draw;
+mod invocations;
 mod setup;
 
 pub(crate) use batcher::{BATCH_FACES, Batcher, LANES, WINDOW};
 pub use draw::{Draw, DrawCounts, PrimitiveTopology, counts};
+pub(crate) use invocations::invocations;
 pub(crate) use setup::Setup;

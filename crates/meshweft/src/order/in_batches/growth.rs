@@ -40,6 +40,10 @@ pub(super) struct Grower<const BESIDE: bool> {
 #[derive(Debug, Clone)]
 struct BatchState {
     setup: Setup,
+    /// The faces that have an odd number of corners in the slots, and those that have two or three.
+    /// Not kept where few candidates are looked at.
+    odd: u32,
+    two_or_three: u32,
     /// How many faces are drawn.
     drawn: u8,
     undrawn: u32,
@@ -101,6 +105,8 @@ impl Default for BatchState {
     fn default() -> Self {
         Self {
             setup: Setup::default(),
+            odd: 0,
+            two_or_three: 0,
             drawn: 0,
             undrawn: 0,
             vertices: [Vertex {
@@ -118,6 +124,23 @@ impl Default for BatchState {
 }
 
 impl BatchState {
+    /// Counts the corners in the slots for the faces at the vertices that came or went; before, the slots
+    /// kept `before`. One bit a face, all faces at once.
+    #[inline]
+    fn note_kept(&mut self, batch: &Batch, before: u32) {
+        let now = self.setup.kept();
+        for vertex in bits(now & !before) {
+            let faces = batch.faces_at(vertex);
+            self.two_or_three ^= faces & self.odd;
+            self.odd ^= faces;
+        }
+        for vertex in bits(before & !now) {
+            let faces = batch.faces_at(vertex);
+            self.odd ^= faces;
+            self.two_or_three ^= faces & self.odd;
+        }
+    }
+
     /// Whether a vertex is not in the FIFO cache.
     #[inline]
     fn is_outside(&self, vertex: &Vertex) -> bool {
@@ -253,7 +276,7 @@ impl<const BESIDE: bool> Grower<BESIDE> {
         let open = lowest(self.state.undrawn & firsts, self.reach);
         let candidates = match self.reach {
             ..=FEW => open,
-            _ => self.with_most_kept(batch, open),
+            _ => self.with_most_kept(open),
         };
 
         // The best of them, ties to the first; of a few, how many corners are kept comes before all.
@@ -276,18 +299,11 @@ impl<const BESIDE: bool> Grower<BESIDE> {
     /// Those of the faces that have most corners in the slots, where two are as good as three: the
     /// third costs no cycle.
     #[inline]
-    fn with_most_kept(&self, batch: &Batch, open: u32) -> u32 {
-        // Faces with one and with two corners in the slots.
-        let (mut one, mut two) = (0, 0);
-        for vertex in bits(self.state.setup.kept()) {
-            let faces = batch.faces_at(vertex);
-            two |= one & faces;
-            one |= faces;
-        }
-        match (open & two, open & one) {
+    fn with_most_kept(&self, open: u32) -> u32 {
+        match (open & self.state.two_or_three, open & self.state.odd) {
             (0, 0) => open,
             (0, one) => one,
-            (two, _) => two,
+            (most, _) => most,
         }
     }
 
@@ -315,7 +331,11 @@ impl<const BESIDE: bool> Grower<BESIDE> {
     fn draw(&mut self, batch: &Batch, face: usize) {
         let state = &mut self.state;
         let corners = batch.corners(face);
+        let kept_before = state.setup.kept();
         state.cost.weighed += CYCLE * state.setup.add(batch.lanes(face));
+        if self.reach > FEW {
+            state.note_kept(batch, kept_before);
+        }
 
         for (number, now) in corners.into_iter().zip(3 * state.drawn..) {
             let vertex = state.vertices[number];

@@ -74,7 +74,7 @@ impl InBatches {
     /// If the order is of another number of faces.
     ///
     /// # Complexity
-    /// Time O(faces · starts), space 30 bytes a face.
+    /// Time O(faces · starts), space 30 bytes a face and 4 bytes a vertex.
     ///
     /// ```
     /// use meshweft::{FaceOrder, cache::nvidia, order::InBatches};
@@ -106,8 +106,8 @@ impl InBatches {
         });
 
         let found = match self.beside {
-            0 => self.found::<false>(&ordered, polygons.as_deref()),
-            _ => self.found::<true>(&ordered, polygons.as_deref()),
+            0 => self.found::<false>(&ordered, faces.vertex_count(), polygons.as_deref()),
+            _ => self.found::<true>(&ordered, faces.vertex_count(), polygons.as_deref()),
         };
         found.map_or_else(|| order.clone(), |found| order.then(&found))
     }
@@ -117,11 +117,12 @@ impl InBatches {
     fn found<const BESIDE: bool>(
         &self,
         ordered: &[[u32; 3]],
+        vertex_count: usize,
         polygons: Option<&[u32]>,
     ) -> Option<FaceOrder> {
         // A batch that loses nothing any more may hold more faces than before. Those after it then begin
         // elsewhere, and may by bad luck need more vertices: if so, such batches stay as they are.
-        let invocations = LazyCell::new(|| nvidia::counts(ordered).invocations);
+        let invocations = LazyCell::new(|| nvidia::invocations(ordered, vertex_count));
         for extends in [true, false] {
             let mut pass = Pass::<BESIDE>::new(*self, ordered, polygons);
             let is_cut_anew = pass.run(extends);
