@@ -7,6 +7,7 @@
 pub mod baselines;
 mod block_faces;
 pub mod bogomjakov_gotsman;
+mod finish;
 mod greedy;
 mod grid;
 mod in_batches;

@@ -5,7 +5,7 @@ use crate::faces::Faces;
 use crate::first_use::FirstUse;
 use crate::index::index32;
 use crate::order::block_faces::{BlockFaces, is_in_blocks};
-use crate::order::in_batches;
+use crate::order::finish::Finish;
 use crate::order::k_cache_reorder::KCacheReorder;
 use crate::order::polygons::{check_starts, polygon_of_each_face};
 use crate::order::search::{self, Search};
@@ -61,6 +61,8 @@ impl Optimizer {
     ///   [`vertex_blocks`](super::vertex_blocks()) numbers them (at most one face in 50 across a border):
     ///   block by block. Universal: the faces across borders come last; `nvidia`: two at the end of a
     ///   batch; others: in the block with two of their vertices.
+    /// - `nvidia`, best and max: the search is followed by an exchange of faces between the card's batches,
+    ///   which a budget of steps does not limit; polygons that stay whole are not exchanged.
     /// - LRU: as for a FIFO cache of five eighths of the size; made for the whole size, an order
     ///   falls off the edge of an LRU cache.
     ///
@@ -134,14 +136,15 @@ impl Optimizer {
             progress,
         };
         let order = search.face_order(faces, starts);
-        in_batches::finish(
-            self.target,
-            self.effort,
-            self.keep_corners,
-            faces,
+        let finish = Finish {
+            target: self.target,
+            effort: self.effort,
+            seed: self.seed,
+            keep_corners: self.keep_corners,
             starts,
-            order,
-        )
+            progress,
+        };
+        finish.of(faces, order)
     }
 
     /// Whether it searches, where nothing limits its time; otherwise a greedy does it all in one pass.

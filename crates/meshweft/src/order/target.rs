@@ -121,7 +121,8 @@ impl std::error::Error for ParseTargetError {}
 ///
 /// | target | `Best` | `Max` |
 /// |---|--:|--:|
-/// | universal, NVIDIA | 4 to 5 | 25 |
+/// | universal | 4 to 5 | 25 |
+/// | NVIDIA | 7 to 8 | 180 to 240 |
 /// | FIFO, LRU | 21 to 23 | 310 to 380 |
 /// | controllable | 13 to 15 | 200 to 240 |
 /// | other GPUs | 11 to 23 | 155 to 390 |

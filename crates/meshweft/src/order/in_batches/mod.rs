@@ -6,25 +6,24 @@
 //! of each batch drawn in another order.
 //!
 //! Read [`InBatches::follow`] first, which cuts the batches as the card does. `batch` numbers the
-//! vertices of one from 0, `growth` makes orders of its faces and counts what they cost.
+//! vertices of one from 0, `growth` makes orders of its faces and counts what they cost. `exchange` is apart: it
+//! changes which faces share a batch.
 
 mod batch;
+mod exchange;
 mod growth;
 #[cfg(test)]
 mod tests;
 
 use std::cell::LazyCell;
 
-use crate::cache::CacheModel;
 use crate::cache::nvidia::{self, Batcher, LANES};
 use crate::faces::Faces;
 use crate::index::index32;
-use crate::order::polygons::polygon_of_each_face;
-use crate::order::target::{Effort, Target};
-use crate::order::turn_corners::turn_corners;
 use crate::permutation::{FaceOrder, Permutation};
 pub(in crate::order) use batch::BESIDE_SIZE;
 use batch::{Batch, MOST_FACES};
+pub(in crate::order) use exchange::{Annealing, exchanged};
 use growth::Grower;
 
 /// The pass: how much it tries, and what else it looks after.
@@ -131,36 +130,6 @@ impl InBatches {
             }
         }
         None
-    }
-}
-
-/// What a search for `target` found, with the faces inside the batches of an NVIDIA card in the order
-/// that it sets up faster, if the target has such a card. `starts`: as for the search.
-pub(in crate::order) fn finish(
-    target: Target,
-    effort: Effort,
-    keep_corners: bool,
-    faces: Faces<'_>,
-    starts: Option<&[u32]>,
-    found: FaceOrder,
-) -> FaceOrder {
-    let pass = match target {
-        Target::Universal => InBatches::BESIDE_OTHERS,
-        Target::Cache(CacheModel::Nvidia) => InBatches {
-            starts: if effort == Effort::Fast { 8 } else { 32 },
-            ..InBatches::ALONE
-        },
-        Target::Cache(_) => return found,
-    };
-    let polygons = starts.map(polygon_of_each_face);
-    let order = pass.follow_whole(faces, &found, polygons.as_deref());
-
-    // The search turned the corners for its first cache.
-    match target {
-        Target::Universal if !keep_corners && starts.is_none() => {
-            turn_corners(faces, &order, CacheModel::fifo(BESIDE_SIZE))
-        }
-        _ => order,
     }
 }
 

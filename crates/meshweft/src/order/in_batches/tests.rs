@@ -1,5 +1,6 @@
 use super::*;
-use crate::cache;
+use crate::cache::{self, CacheModel};
+use crate::order::polygons::polygon_of_each_face;
 use crate::random::SplitMix64;
 
 /// A mesh of soups, strips and grids, with degenerate faces and vertices in other blocks.

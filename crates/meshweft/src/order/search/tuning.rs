@@ -11,7 +11,7 @@ use super::rollout::{Caller, Rollouts};
 use super::settings::Settings;
 use super::state::{CacheLimits, State};
 use crate::faces::Faces;
-use crate::order::in_batches;
+use crate::order::finish::Finish;
 use crate::order::target::{Effort, Target};
 use crate::order::vertex_fetch::vertex_fetch;
 use crate::permutation::{FaceOrder, Permutation};
@@ -93,7 +93,15 @@ pub fn face_order<'a>(
         (Some(second), true) => run::<u64, 2>(faces, &settings, [first, second], seed),
         (Some(second), false) => run::<u128, 2>(faces, &settings, [first, second], seed),
     };
-    in_batches::finish(target, effort, false, given, None, found)
+    let finish = Finish {
+        target,
+        effort,
+        seed,
+        keep_corners: false,
+        starts: None,
+        progress: &(),
+    };
+    finish.of(given, found)
 }
 
 fn hand_in(numbers: &Numbers, settings: &mut Settings) {
