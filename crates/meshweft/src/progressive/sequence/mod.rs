@@ -21,9 +21,10 @@
 //! - *A place is given once.* Fig. 5 empties `S(t)` when `t`'s place is given, but its loops
 //!   do not ask for that before they give it again, and go on after a face has its place. Here a face
 //!   takes the first free place that fits, and stops looking.
-//! - *Who is first*: new faces and removed faces are gone through in the order of the record. Of
-//!   equally short lists the one of the first new face is taken; the head of a list is the removed
-//!   face that is first in the record.
+//! - *Who is first*: removed faces are gone through by their places, from the first ("positions
+//!   k1, …, kn"), new faces in the order of the record. Of equally short lists the one of the first
+//!   new face is taken; the head of a list is the removed face of the first place. In the order of
+//!   the record instead, *smart* is .1 worse at 10 % of the faces.
 //! - *Common vertices* are distinct ones, so that faces which name a vertex twice can be compared. A
 //!   new face with all three vertices of a removed one has no place by the first rule of Fig. 5, which
 //!   says exactly two, but by the second.

@@ -59,7 +59,10 @@ pub(super) fn simple(history: &History, order: &FaceOrder) -> Levels {
 /// Fig. 5. `S` is what is free, `S'` what is placed, `t` and `T` are removed and inserted faces.
 pub(super) fn smart(history: &History, order: &FaceOrder) -> Levels {
     by_places(history, order, |record, mut s, s_new| {
-        let (t, new) = (record.removed_faces, record.inserted_faces.clone());
+        let new = record.inserted_faces.clone();
+        let mut t: Vec<u32> = record.removed_faces.to_vec();
+        t.sort_by_key(|old| s[old]);
+        let t = &t;
 
         // Assignment due to two common vertices.
         for new in new.clone() {

@@ -1,5 +1,7 @@
 //! A sequence of places, each with a face or free: new faces take the places of removed ones.
 
+use std::ops::Range;
+
 use super::updated::Sequence;
 use crate::index::index32;
 use crate::permutation::FaceOrder;
@@ -8,13 +10,21 @@ use crate::progressive::history::{History, Record};
 /// A place without a face, a face without a place.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// The places that a record frees, and the faces that had them: `faces[i]` stood at `places[i]`.
+///
+/// From the first place to the last.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FreePlaces {
+    pub(super) faces: Vec<u32>,
+    pub(super) places: Vec<u32>,
+}
+
 /// Which free place each new face of a record takes.
 pub(super) trait Rule {
-    /// Gives some of the new faces a place of a removed face, each place once.
+    /// Gives some of the new faces a free place, each place once.
     ///
-    /// `free` has the places of the removed faces, in the order of the record, and `given` a place
-    /// for each new face, which is [`NONE`] so far.
-    fn give(&mut self, history: &History, record: &Record<'_>, free: &[u32], given: &mut [u32]);
+    /// `given` has a place for each new face, which is [`NONE`] so far; the first has number `first`.
+    fn give(&mut self, history: &History, free: &FreePlaces, first: u32, given: &mut [u32]);
 }
 
 /// A face number for each place, and back.
@@ -31,8 +41,8 @@ pub(super) struct PlacedFaces<R> {
     places: Vec<u32>,
     /// How many records have given their places.
     given_records: usize,
-    /// Places that a record frees: kept for its memory.
-    free: Vec<u32>,
+    /// What a record frees: kept for its memory.
+    free: FreePlaces,
 }
 
 impl<R: Rule> PlacedFaces<R> {
@@ -45,21 +55,23 @@ impl<R: Rule> PlacedFaces<R> {
             faces: order.new_to_old().to_vec(),
             places,
             given_records: 0,
-            free: Vec::new(),
+            free: FreePlaces::default(),
         }
     }
 
     /// Gives the new faces of a record their places.
     fn give(&mut self, history: &History, record: &Record<'_>) {
-        let removed = record.removed_faces.iter();
-        self.free.clear();
-        self.free
-            .extend(removed.map(|&face| self.places[face as usize]));
+        let FreePlaces { faces, places } = &mut self.free;
+        faces.clear();
+        faces.extend(record.removed_faces);
+        faces.sort_unstable_by_key(|&face| self.places[face as usize]);
+        places.clear();
+        places.extend(faces.iter().map(|&face| self.places[face as usize]));
 
-        let first = record.inserted_faces.start as usize;
-        self.places.resize(record.inserted_faces.end as usize, NONE);
-        let given = &mut self.places[first..];
-        self.rule.give(history, record, &self.free, given);
+        let Range { start, end } = record.inserted_faces;
+        self.places.resize(end as usize, NONE);
+        let given = &mut self.places[start as usize..];
+        self.rule.give(history, &self.free, start, given);
 
         // Those without a place go behind the last.
         for place in given.iter_mut().filter(|place| **place == NONE) {

@@ -1,10 +1,10 @@
 //! The simple update: free places are filled one after the other.
 
-use super::places::{PlacedFaces, Rule};
+use super::places::{FreePlaces, PlacedFaces, Rule};
 use super::updated::{Updated, update_methods};
 use crate::error::MeshError;
 use crate::permutation::FaceOrder;
-use crate::progressive::history::{History, Record};
+use crate::progressive::history::History;
 
 /// A rendering sequence kept up by the simple update (Bogomjakov & Gotsman 2002): the new faces of a
 /// record take the places of the removed ones, from the front, in the order of the record.
@@ -46,7 +46,7 @@ impl<'a> SimpleUpdate<'a> {
     /// # Errors
     /// [`MeshError::LengthMismatch`] if the order is not as long as the full mesh has faces.
     pub fn new(history: &'a History, order: &FaceOrder) -> Result<Self, MeshError> {
-        let start = || Ok(PlacedFaces::new(history, order, FromTheFront::default()));
+        let start = || Ok(PlacedFaces::new(history, order, FromTheFront));
         let updated = Updated::new(history, order, start)?;
         Ok(Self { updated })
     }
@@ -55,17 +55,12 @@ impl<'a> SimpleUpdate<'a> {
 update_methods!(SimpleUpdate);
 
 /// Fills the free places from the front.
-#[derive(Debug, Clone, Default)]
-pub(super) struct FromTheFront {
-    sorted: Vec<u32>,
-}
+#[derive(Debug, Clone)]
+pub(super) struct FromTheFront;
 
 impl Rule for FromTheFront {
-    fn give(&mut self, _: &History, _: &Record<'_>, free: &[u32], given: &mut [u32]) {
-        self.sorted.clear();
-        self.sorted.extend(free);
-        self.sorted.sort_unstable();
-        for (given, &place) in given.iter_mut().zip(&self.sorted) {
+    fn give(&mut self, _: &History, free: &FreePlaces, _: u32, given: &mut [u32]) {
+        for (given, &place) in given.iter_mut().zip(&free.places) {
             *given = place;
         }
     }

@@ -1,12 +1,12 @@
 //! The smart update: a new face takes the place of a removed one that it shares vertices with.
 
-use super::places::{NONE, PlacedFaces, Rule};
+use super::places::{FreePlaces, NONE, PlacedFaces, Rule};
 use super::simple::FromTheFront;
 use super::updated::{Updated, update_methods};
 use crate::error::MeshError;
 use crate::index::index32;
 use crate::permutation::FaceOrder;
-use crate::progressive::history::{History, Record};
+use crate::progressive::history::History;
 use crate::topology::distinct;
 
 /// Records of more pairs of a removed and an inserted face are updated as [`SimpleUpdate`] does.
@@ -75,28 +75,26 @@ struct BySharedVertices {
     /// The length of each list `L(T)`: how many free `t` share a vertex with `T`. The lists
     /// themselves are not stored: `t` is in `L(T)` if it is free and shares a vertex.
     lengths: Vec<usize>,
-    from_the_front: FromTheFront,
 }
 
 impl Rule for BySharedVertices {
-    fn give(&mut self, history: &History, record: &Record<'_>, free: &[u32], given: &mut [u32]) {
-        if free.len().saturating_mul(given.len()) > LONGEST {
-            return self.from_the_front.give(history, record, free, given);
+    fn give(&mut self, history: &History, free: &FreePlaces, first: u32, given: &mut [u32]) {
+        let FreePlaces { faces, places } = free;
+        if faces.len().saturating_mul(given.len()) > LONGEST {
+            return FromTheFront.give(history, free, first, given);
         }
-        let removed = record.removed_faces;
-        let inserted = record.inserted_faces.start;
         let shared = |new: usize, old: usize| {
-            let new = history.face(inserted + index32(new));
-            shared_vertices(new, history.face(removed[old]))
+            let new = history.face(first + index32(new));
+            shared_vertices(new, history.face(faces[old]))
         };
         self.is_free.clear();
-        self.is_free.resize(free.len(), true);
+        self.is_free.resize(faces.len(), true);
 
         // Assignment due to two common vertices.
         for (new, given) in given.iter_mut().enumerate() {
             let fits = |&old: &usize| self.is_free[old] && shared(new, old) == 2;
-            if let Some(old) = (0..free.len()).find(fits) {
-                *given = free[old];
+            if let Some(old) = (0..faces.len()).find(fits) {
+                *given = places[old];
                 self.is_free[old] = false;
             }
         }
@@ -106,7 +104,7 @@ impl Rule for BySharedVertices {
         for (new, given) in given.iter().enumerate() {
             let is_in_list = |&old: &usize| self.is_free[old] && shared(new, old) > 0;
             let length = match *given {
-                NONE => (0..free.len()).filter(is_in_list).count(),
+                NONE => (0..faces.len()).filter(is_in_list).count(),
                 _ => 0,
             };
             self.lengths.push(length);
@@ -115,9 +113,9 @@ impl Rule for BySharedVertices {
         // Assignment due to one common vertex.
         while let Some(new) = shortest(&self.lengths) {
             let is_in_list = |&old: &usize| self.is_free[old] && shared(new, old) > 0;
-            let head = (0..free.len()).find(is_in_list);
+            let head = (0..faces.len()).find(is_in_list);
             let head = head.expect("the list is not empty");
-            given[new] = free[head];
+            given[new] = places[head];
             self.is_free[head] = false;
             self.lengths[new] = 0;
             for (other, length) in self.lengths.iter_mut().enumerate() {
@@ -128,10 +126,10 @@ impl Rule for BySharedVertices {
         }
 
         // The remaining faces to whatever places are left.
-        let mut left = (0..free.len()).filter(|&old| self.is_free[old]);
+        let mut left = (0..faces.len()).filter(|&old| self.is_free[old]);
         for given in given.iter_mut().filter(|given| **given == NONE) {
             match left.next() {
-                Some(old) => *given = free[old],
+                Some(old) => *given = places[old],
                 None => break,
             }
         }
