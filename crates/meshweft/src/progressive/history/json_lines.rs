@@ -1,15 +1,4 @@
-//! Histories as JSON, a line a record.
-//!
-//! The first line is an object with `version` (1), `vertices` (how many there are), `faces` (an array
-//! of three vertex numbers each) and, if the writer knew it, `records` (how many lines follow). Each
-//! further line is an object with `removed_vertices`, `merges_into`, `removed_faces` (arrays of
-//! numbers), `inserted_faces` (as `faces`) and `error`, as in [`NewRecord`]; what is missing is empty,
-//! or 0.
-//!
-//! ```text
-//! {"version":1,"vertices":5,"faces":[[0,1,4],[1,2,4],[2,3,4],[3,0,4]],"records":1}
-//! {"removed_vertices":[4],"removed_faces":[0,1,2,3],"inserted_faces":[[0,1,2],[0,2,3]]}
-//! ```
+//! Histories as JSON, a line a record; [`History::read_json_lines`] has the format.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -116,8 +105,13 @@ impl fmt::Display for ReadHistoryError {
 impl std::error::Error for ReadHistoryError {}
 
 impl History {
-    /// Reads a history from JSON lines, as `json_lines` describes them, checking each record. Feature
-    /// `files`.
+    /// Reads a history from JSON lines, checking each record. Feature `files`.
+    ///
+    /// The first line is an object with `version` (1), `vertices` (how many there are), `faces` (an
+    /// array of three vertex numbers each) and, if the writer knew it, `records` (how many lines
+    /// follow). Each further line is an object with `removed_vertices`, `merges_into`, `removed_faces`
+    /// (arrays of numbers), `inserted_faces` (as `faces`) and `error`, as in [`NewRecord`]; what is
+    /// missing is empty, or 0. Lines of blanks are skipped.
     ///
     /// # Errors
     /// A [`ReadHistoryError`] with the line for whatever is not a history, is more than the limits
