@@ -14,6 +14,8 @@ mod builder;
 mod error;
 #[cfg(feature = "files")]
 mod json_lines;
+#[cfg(feature = "files")]
+mod read_error;
 mod record;
 #[cfg(test)]
 mod tests;
@@ -21,7 +23,7 @@ mod tests;
 pub use builder::HistoryBuilder;
 pub use error::{HistoryError, HistoryErrorKind};
 #[cfg(feature = "files")]
-pub use json_lines::{ReadHistoryError, ReadHistoryErrorKind};
+pub use read_error::{ReadHistoryError, ReadHistoryErrorKind};
 pub use record::{NewRecord, Record};
 
 use crate::faces::Faces;
