@@ -3,7 +3,7 @@
 use super::costs::RemovalCosts;
 use super::fan::{Move, Precision};
 use super::link::{self, Marks};
-use super::parts::Parts;
+use super::parts::ConnectedParts;
 use super::queue::RemovalQueue;
 use super::remaining::{FanFace, RemainingMesh};
 use super::settings::Collapses;
@@ -19,7 +19,7 @@ pub(super) struct Builder<'a> {
     queue: RemovalQueue,
     is_locked: Vec<bool>,
     costs: RemovalCosts,
-    parts: Option<Parts>,
+    parts: Option<ConnectedParts>,
     records: Records,
     largest_error: f32,
     marks: Marks,
@@ -32,10 +32,10 @@ impl<'a> Builder<'a> {
         attributes: &[Attribute],
     ) -> Self {
         let points = rest.point_count();
-        let parts = settings.drop_parts.then(|| Parts::new(&mut rest));
+        let parts = settings.drop_parts.then(|| ConnectedParts::new(&mut rest));
         Self {
             settings,
-            queue: RemovalQueue::new(points + parts.as_ref().map_or(0, Parts::len)),
+            queue: RemovalQueue::new(points + parts.as_ref().map_or(0, ConnectedParts::len)),
             is_locked: link::locked(&mut rest, settings.lock_border),
             costs: RemovalCosts::new(&settings, &rest, attributes),
             parts,

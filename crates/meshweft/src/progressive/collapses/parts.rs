@@ -1,4 +1,4 @@
-//! Parts: faces that are joined by points.
+//! Connected parts: faces that are joined by points.
 
 use super::remaining::{NONE, RemainingMesh};
 use crate::geometry::double::Bounds;
@@ -7,7 +7,7 @@ use crate::topology::rows::Rows;
 
 /// The parts of a mesh, for those that leave as a whole once none of their points can go.
 #[derive(Debug)]
-pub(super) struct Parts {
+pub(super) struct ConnectedParts {
     /// The part of each point; [`NONE`] without faces.
     of: Vec<u32>,
     points: Rows<u32>,
@@ -15,7 +15,7 @@ pub(super) struct Parts {
     waiting: Vec<u32>,
 }
 
-impl Parts {
+impl ConnectedParts {
     pub(super) fn new(rest: &mut RemainingMesh<'_>) -> Self {
         let points = rest.point_count();
         let mut of = vec![NONE; points];

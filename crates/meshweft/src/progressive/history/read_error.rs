@@ -32,7 +32,7 @@ pub enum ReadHistoryErrorKind {
         /// How many the first line promises.
         promised: usize,
     },
-    /// A count above the [`Limits`].
+    /// A count above the [`Limits`](crate::Limits).
     OverLimit {
         /// What there is too much of.
         what: &'static str,
