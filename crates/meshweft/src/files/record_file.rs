@@ -12,6 +12,7 @@ use super::definitions::{Filling, Places};
 use super::edit::check_order;
 use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
+use super::format::Format;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::{RecordOrders, record_in};
@@ -19,6 +20,7 @@ use super::placing::Placed;
 use super::rewrite::{Change, Rewrite, StoredMesh};
 use super::select::{PlannedRecord, SelectPlan};
 use super::selected::{self, SelectNotation, SelectSource, SelectedFile};
+use super::signature;
 use super::slots::Spans;
 use super::splice::{Layer, splice};
 use crate::attribute::{Attribute, AttributeInfo};
@@ -43,6 +45,7 @@ pub(super) struct RecordFile<N> {
     /// How it was read, and how other bytes in its stead are.
     pub(super) options: ReadOptions,
     pub(super) read_again: ReadAgain<N>,
+    pub(super) format: Format,
 }
 
 /// Reads other bytes as a file was read.
@@ -166,12 +169,18 @@ impl<N: SelectNotation> RecordFile<N> {
         definitions.places(&self.faces, &self.vertices, runs, &self.orders)
     }
 
+    /// Other bytes, as a reader of a file of this format takes them.
+    fn again(&self, bytes: Vec<u8>) -> Result<RecordRead<N>, Problem> {
+        signature::check(self.format, &bytes).map_err(|kind| kind.at(Place::File))?;
+        (self.read_again)(self, bytes)
+    }
+
     /// The file with all records where its orders put them.
     fn settled(&self) -> Result<Self, Problem> {
         let mut bytes = Vec::with_capacity(self.source.len());
         let written = self.write(&mut bytes);
         written.map_err(|error| FileErrorKind::Io(error).at(Place::File))?;
-        let (file, _) = (self.read_again)(self, bytes).map_err(not_again)?;
+        let (file, _) = self.again(bytes).map_err(not_again)?;
         match file.entries.iter().zip(&self.entries).next() {
             Some((new, old)) if new.mesh.faces() == old.mesh.faces() => Ok(file),
             _ => Err(otherwise()),
@@ -206,7 +215,7 @@ impl<N: SelectNotation> RecordFile<N> {
         } = selected::write(&source, plan, rows, &mut *writer)?;
 
         // A reader has to find what was written, where it was written.
-        let (file, notes) = (self.read_again)(self, bytes).map_err(not_again)?;
+        let (file, notes) = self.again(bytes).map_err(not_again)?;
         let is_found = file.vertices.is_same(&vertices) && file.faces.is_same(&faces);
         let expected = self.faces_of(plan, &source);
         match &file.entries[..] {

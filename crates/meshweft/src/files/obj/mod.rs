@@ -60,6 +60,7 @@ use crate::files::bonds::Bonds;
 use crate::files::content::ReadResult;
 use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::format::Format;
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
 use crate::files::orders::RecordOrders;
@@ -171,6 +172,7 @@ fn read_file(
             of_vertices: bond,
         },
         options: options.clone(),
+        format: Format::Obj,
         read_again: |file, bytes| read_file(bytes, Libraries::Known(&file.notation), &file.options),
     };
     Ok((file, notes))

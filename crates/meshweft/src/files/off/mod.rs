@@ -37,6 +37,7 @@ use super::bonds::Bonds;
 use super::content::ReadResult;
 use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
+use super::format::Format;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::RecordOrders;
@@ -121,6 +122,7 @@ fn read_file(bytes: Vec<u8>, options: &ReadOptions) -> Result<RecordRead<OffNota
         orders: RecordOrders::default(),
         bonds: Bonds::default(),
         options: options.clone(),
+        format: Format::Off,
         read_again: |file, bytes| read_file(bytes, &file.options),
     };
     Ok((file, notes))

@@ -45,6 +45,7 @@ use crate::files::content::ReadResult;
 use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::{check_face_count, check_vertex_count};
+use crate::files::format::Format;
 use crate::files::new_mesh::NewMesh;
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
@@ -180,6 +181,7 @@ fn finish(
             of_vertices: plan.vertex_obstacle,
         },
         options: options.clone(),
+        format: Format::Ply,
         read_again: |file, bytes| read_file(bytes, &file.options),
     };
     Ok((file, notes))

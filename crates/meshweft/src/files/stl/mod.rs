@@ -30,6 +30,7 @@ use super::content::ReadResult;
 use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
 use super::face_records::{FaceRecords, check_vertex_count};
+use super::format::Format;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::RecordOrders;
@@ -136,6 +137,7 @@ fn file<N>(
         bonds: Bonds::default(),
         options: options.clone(),
         read_again,
+        format: Format::Stl,
     };
     Ok((file, notes))
 }
