@@ -60,9 +60,19 @@ pub(super) fn check(format: Format, bytes: &[u8]) -> Result<(), FileErrorKind> {
     };
     match foreign(bytes).filter(|_| !is_sound) {
         Some(kind) => Err(kind),
+        // Where it holds the words of a glTF must not matter: they may be in records that move.
+        None if !is_sound && !is_gltf_format(format) && is_json(text_of(bytes)) => {
+            let what =
+                "this is the JSON of a glTF, and no mesh file of the format named. Name it .gltf";
+            Err(FileErrorKind::unsupported(what.to_owned()))
+        }
         None if format == Format::Obj => check_obj(bytes),
         None => Ok(()),
     }
+}
+
+fn is_gltf_format(format: Format) -> bool {
+    matches!(format, Format::Gltf | Format::Glb)
 }
 
 /// The format that bytes are surely of; they may be the start of a file of `length` bytes.
@@ -329,12 +339,16 @@ fn foreign(bytes: &[u8]) -> Option<FileErrorKind> {
 
 /// Whether it is a JSON object or array with members that are not those of a glTF.
 fn is_other_json(text: &[u8]) -> bool {
+    is_json(text) && !is_gltf(text)
+}
+
+/// Whether it begins as a JSON object or array with members does.
+fn is_json(text: &[u8]) -> bool {
     let inner = match text {
         [b'{' | b'[', inner @ ..] => inner.trim_ascii_start(),
         _ => return false,
     };
-    let has_members = inner.starts_with(b"\"") || text[0] == b'[' && inner.starts_with(b"{");
-    has_members && !is_gltf(text)
+    inner.starts_with(b"\"") || text[0] == b'[' && inner.starts_with(b"{")
 }
 
 #[cfg(test)]
@@ -395,6 +409,16 @@ mod tests {
             bytes.extend(1_u32.to_le_bytes());
             bytes.extend([0; 50]);
             assert_eq!(named(Format::Stl, &bytes), Some(Format::Stl));
+        }
+    }
+
+    #[test]
+    fn words_of_a_gltf_do_not_make_json_another_format() {
+        let json = br#"{"asset": 1}"#;
+        assert!(check(Format::Gltf, json).is_ok());
+        for format in [Format::Stl, Format::Off, Format::Obj] {
+            let error = check(format, json).unwrap_err().to_string();
+            assert!(error.contains("Name it .gltf"), "{error}");
         }
     }
 
