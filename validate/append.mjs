@@ -179,15 +179,16 @@ async function check(source, name, folder, tally) {
 
     // A source that no JSON parser takes, but the library does, has nothing to compare with; its result is read.
     const isBroken = ({ messages }) => messages.some(({ code }) => code === "INVALID_JSON");
-    if (isBroken(await findings(source, name))) {
-        if (isBroken(await findings(result, name))) tally.problems.push(`${name}: its JSON is still not valid`);
+    const [found, foundAgain] = [await findings(source, name), await findings(result, name)];
+    if (isBroken(found)) {
+        if (isBroken(foundAgain)) tally.problems.push(`${name}: its JSON is still not valid`);
         else tally.repaired.push(name);
         return;
     }
 
     const [before, after] = [await jsonOf(source), await jsonOf(result)];
     const problems = await notKept(source, result, before, after);
-    compareFindings(name, await findings(source, name), await findings(result, name), before, tally);
+    compareFindings(name, found, foundAgain, before, tally);
 
     const [old, now] = [await loaded(source), await loaded(result)];
     if (old.error !== undefined) tally.unreadable.push(name);

@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use super::error::{FileErrorKind, Place, Problem};
-use super::rewrite::{Notation, StoredMesh};
+use super::rewrite::{Change, Notation, Rewrite, StoredMesh};
 use super::select::{LEFT_OUT, PlannedMesh, PlannedRecord, PlannedTriangle, SelectPlan};
 use super::slots::Spans;
 use super::text::{is_blank, is_line_end};
@@ -29,6 +29,30 @@ impl SelectSource<'_> {
     pub(super) fn new_number(&self, vertex: u32) -> u32 {
         let new = self.old_to_new.get(vertex as usize);
         new.copied().unwrap_or(vertex)
+    }
+
+    /// Appends a face record as it is, its vertices renumbered by `notation`; `corners` is scratch.
+    pub(super) fn write_whole(
+        &self,
+        notation: &impl Notation,
+        record: usize,
+        corners: &mut Vec<Range<usize>>,
+        out: &mut Vec<u8>,
+    ) {
+        let change = Change {
+            rotation: 0,
+            old_to_new: self.old_to_new,
+        };
+        let record = &self.stored.source[self.stored.faces.span(record)];
+        if change.is_nothing() {
+            return out.extend_from_slice(record);
+        }
+        let rewrite = Rewrite {
+            change,
+            corners,
+            out,
+        };
+        notation.write_face(record, rewrite);
     }
 }
 

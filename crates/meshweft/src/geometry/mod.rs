@@ -11,4 +11,5 @@ mod vector;
 pub use deviation::{Deviation, Distances, deviation};
 pub use normals::vertex_normals;
 pub use surface::{Nearest, Surface};
+pub(crate) use vector::place_bits;
 pub use vector::{cross, dot, normalized, sub};

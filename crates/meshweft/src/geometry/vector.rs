@@ -35,6 +35,11 @@ pub fn normalized(a: [f32; 3]) -> [f32; 3] {
     }
 }
 
+/// What is the same for two positions if they are one place: the bits of the coordinates, −0 taken for 0.
+pub(crate) fn place_bits(position: [f32; 3]) -> [u32; 3] {
+    position.map(|x| (x + 0.0).to_bits())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -11,6 +11,7 @@ use super::json;
 use crate::cache::CacheModel;
 use crate::faces::turned;
 use crate::files::{Document, FileError, MeshEntry, Note};
+use crate::geometry::place_bits;
 
 /// How two documents differ as triangles and in misses under these models.
 ///
@@ -153,8 +154,7 @@ fn triangles(entries: &[MeshEntry], positions: Option<&[Positions]>) -> Vec<[[u3
     let mut triangles = Vec::new();
     for (mesh, entry) in entries.iter().enumerate() {
         let identity = |vertex: u32| match positions {
-            // Zero has two signs, which are one place.
-            Some(positions) => positions[mesh][vertex as usize].map(|x| (x + 0.0).to_bits()),
+            Some(positions) => place_bits(positions[mesh][vertex as usize]),
             None => [vertex, 0, 0],
         };
         for face in entry.mesh.faces() {

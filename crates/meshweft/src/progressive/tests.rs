@@ -52,6 +52,15 @@ fn at_each_level(mesh: &ProgressiveMesh, mut check: impl FnMut(usize, &[[u32; 3]
     }
 }
 
+/// The faces of the last level.
+fn coarsest(mesh: &ProgressiveMesh) -> Vec<[u32; 3]> {
+    let mut walk = Walk::new(mesh);
+    walk.go_to(mesh.last_level());
+    let mut faces = Vec::new();
+    walk.emit(&mut faces);
+    faces
+}
+
 #[test]
 fn manifolds_stay_manifolds_of_the_same_topology() {
     for (faces, seed) in [
@@ -223,10 +232,7 @@ fn a_needle_keeps_its_point() {
         }
         .build(&mesh, &[])
         .unwrap();
-        let mut walk = Walk::new(&progressive);
-        walk.go_to(progressive.last_level());
-        let mut faces = Vec::new();
-        walk.emit(&mut faces);
+        let faces = coarsest(&progressive);
         assert!(faces.as_flattened().contains(&40));
     }
 }
@@ -300,10 +306,7 @@ fn vertices_of_the_same_record_count_as_one() {
         whole.face_count(whole.last_level())
     );
     let coarse = split.fine_to_coarse(split.last_level());
-    let mut walk = Walk::new(&split);
-    walk.go_to(split.last_level());
-    let mut faces = Vec::new();
-    walk.emit(&mut faces);
+    let faces = coarsest(&split);
     assert!(
         coarse
             .iter()

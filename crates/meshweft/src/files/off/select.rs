@@ -8,7 +8,6 @@ use super::header::CountSpans;
 use super::lines::FreeTokens;
 use super::notation::OffNotation;
 use crate::files::error::Problem;
-use crate::files::rewrite::{Change, Notation, Rewrite};
 use crate::files::select::{PlannedMesh, PlannedRecord, PlannedTriangle};
 use crate::files::selected::{NewCounts, SelectNotation, SelectSource, SelectWriter, StoredCount};
 use crate::files::text::{push_number, whole_number};
@@ -59,23 +58,8 @@ impl SelectWriter for OffSelect<'_> {
     }
 
     fn whole(&mut self, record: usize, out: &mut Vec<u8>) -> Result<(), Problem> {
-        let stored = &self.source.stored;
-        let change = Change {
-            rotation: 0,
-            old_to_new: self.source.old_to_new,
-        };
-        let record = &stored.source[stored.faces.span(record)];
-        if change.is_nothing() {
-            out.extend_from_slice(record);
-            return Ok(());
-        }
-        let corners = &mut self.tokens;
-        let rewrite = Rewrite {
-            change,
-            corners,
-            out,
-        };
-        self.notation.write_face(record, rewrite);
+        let (source, corners) = (self.source, &mut self.tokens);
+        source.write_whole(self.notation, record, corners, out);
         Ok(())
     }
 

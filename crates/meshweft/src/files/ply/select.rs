@@ -11,7 +11,6 @@ use super::rows::{Binary, PlyRows, Row};
 use crate::attribute::ComponentType;
 use crate::files::corner_sources::{CornerSources, RecordCorner, place_in_record};
 use crate::files::error::Problem;
-use crate::files::rewrite::{Change, Notation, Rewrite};
 use crate::files::select::{PlannedTriangle, face_problem};
 use crate::files::selected::{NewCounts, SelectNotation, SelectSource, SelectWriter, StoredCount};
 use crate::files::slots::Spans;
@@ -91,23 +90,8 @@ impl SelectWriter for PlySelect<'_> {
     }
 
     fn whole(&mut self, record: usize, out: &mut Vec<u8>) -> Result<(), Problem> {
-        let stored = &self.source.stored;
-        let change = Change {
-            rotation: 0,
-            old_to_new: self.source.old_to_new,
-        };
-        let record = &stored.source[stored.faces.span(record)];
-        if change.is_nothing() {
-            out.extend_from_slice(record);
-            return Ok(());
-        }
-        let corners = &mut self.tokens;
-        let rewrite = Rewrite {
-            change,
-            corners,
-            out,
-        };
-        self.notation.write_face(record, rewrite);
+        let (source, corners) = (self.source, &mut self.tokens);
+        source.write_whole(self.notation, record, corners, out);
         Ok(())
     }
 

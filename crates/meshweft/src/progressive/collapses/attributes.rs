@@ -104,8 +104,8 @@ impl Lengths {
         let greatest = pairs.iter().map(|pair| {
             // The face of this vertex that is nearest to the point, of those that stay.
             let mut nearest = (f64::INFINITY, [0.0; 3], None);
-            for (face, &[a, b]) in fan.faces.iter().zip(&fan.spokes) {
-                if face.ring.contains(&to) || rest.side(face.corner) != pair.from {
+            for (face, &[a, b]) in fan.staying(to) {
+                if rest.side(face.corner) != pair.from {
                     continue;
                 }
                 let triangle = [step, a, b];

@@ -176,21 +176,21 @@ impl<'a> Builder<'a> {
         let (fan, pairs) = (&self.costs.fan, &self.costs.pairs);
 
         // Corners that change, vertex by vertex, then faces that leave.
-        let leaves = |face: &FanFace| face.ring.contains(&found.to);
         for &pair in pairs {
-            for face in fan.faces.iter().filter(|face| !leaves(face)) {
+            for (face, _) in fan.staying(found.to) {
                 if self.rest.side(face.corner) == pair.from {
                     self.records.push_corner(face.corner);
                 }
             }
             self.records.push_pair(pair);
         }
-        for face in fan.faces.iter().filter(|face| leaves(face)) {
+        let leaving = |face: &&FanFace| face.ring.contains(&found.to);
+        for face in fan.faces.iter().filter(leaving) {
             self.rest.remove(face.face());
             self.records.push_leaving(face.face());
         }
         self.rest.forget(point);
-        for face in fan.faces.iter().filter(|face| !leaves(face)) {
+        for (face, _) in fan.staying(found.to) {
             let side = self.rest.side(face.corner);
             let pair = pairs.iter().find(|pair| pair.from == side);
             let to = pair.map_or(found.to, |pair| pair.to);

@@ -143,8 +143,8 @@ impl RemovalCosts {
         }
     }
 
-    /// Puts into the cost of a move what the faces that stay do to the point, its attributes and the
-    /// witnesses; `false` if it cannot be made.
+    /// Puts into the cost of a move how far the faces that stay are from the point and its attributes;
+    /// `false` if it cannot be made.
     pub(super) fn measure(&mut self, rest: &RemainingMesh<'_>, point: u32, at: usize) -> bool {
         let found = &mut self.moves[at];
         let (to, step) = (found.to, found.step);

@@ -135,24 +135,24 @@ impl Fan {
         }
     }
 
+    /// The faces that stay when the point moves to a neighbour, each with its two others relative to the
+    /// point.
+    pub(super) fn staying(&self, to: u32) -> impl Iterator<Item = (&FanFace, &[Vector; 2])> {
+        let faces = self.faces.iter().zip(&self.spokes);
+        faces.filter(move |(face, _)| !face.ring.contains(&to))
+    }
+
     /// The faces that stay once the point took this step.
     pub(super) fn put_staying(&self, to: u32, step: Vector, patch: &mut Patch) {
         patch.clear();
-        for (face, &[a, b]) in self.faces.iter().zip(&self.spokes) {
-            if !face.ring.contains(&to) {
-                patch.push(face.face(), [step, a, b]);
-            }
+        for (face, &[a, b]) in self.staying(to) {
+            patch.push(face.face(), [step, a, b]);
         }
     }
 
     /// How far the point is from the faces that stay, once it took this step; 0 if none stays.
     pub(super) fn distance_after(&self, to: u32, step: Vector) -> f64 {
-        let stay = self
-            .faces
-            .iter()
-            .zip(&self.spokes)
-            .filter(|(face, _)| !face.ring.contains(&to));
-        let squares = stay.map(|(_, &[a, b])| {
+        let squares = self.staying(to).map(|(_, &[a, b])| {
             let way = way_to_triangle([0.0; 3], [step, a, b]);
             dot(way, way)
         });

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use crate::attribute::{Attribute, Values};
+use crate::geometry::place_bits;
 use crate::index::index32;
 
 /// The vertices of a mesh by position. A point is named by its first vertex.
@@ -21,7 +22,6 @@ impl WeldedPoints {
     /// Time O(vertices log vertices) whatever the values are.
     pub(super) fn new(positions: &[[f32; 3]], attributes: &[Attribute]) -> Self {
         // Vertices by a hash of their position, so that equal ones come together.
-        let key = |position: [f32; 3]| position.map(bits);
         let hash = |[x, y, z]: [u32; 3]| {
             let mixed = [x, y, z].iter().fold(0_u64, |mixed, &part| {
                 (mixed ^ u64::from(part))
@@ -33,7 +33,7 @@ impl WeldedPoints {
         let mut order: Vec<u64> = positions
             .iter()
             .zip(0..)
-            .map(|(&p, v)| hash(key(p)) | v)
+            .map(|(&p, v)| hash(place_bits(p)) | v)
             .collect();
         order.sort_unstable();
 
@@ -52,8 +52,8 @@ impl WeldedPoints {
                 |entry: &u64| u32::try_from(entry & u64::from(u32::MAX)).unwrap_or_default();
             vertices.clear();
             vertices.extend(run.iter().map(vertex));
-            vertices.sort_unstable_by_key(|&v| (key(positions[v as usize]), v));
-            let at = |v: u32| key(positions[v as usize]);
+            vertices.sort_unstable_by_key(|&v| (place_bits(positions[v as usize]), v));
+            let at = |v: u32| place_bits(positions[v as usize]);
             for point in vertices.chunk_by_mut(|&a, &b| at(a) == at(b)) {
                 points.group(point, attributes);
             }

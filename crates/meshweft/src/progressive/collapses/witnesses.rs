@@ -87,12 +87,10 @@ impl Witnesses {
 /// `old`, if the point moves to a neighbour.
 pub(super) fn farthest_middle(fan: &Fan, old: &Patch, to: u32, step: [f64; 3]) -> f64 {
     let mut farthest = 0.0_f64;
-    for (face, &[a, b]) in fan.faces.iter().zip(&fan.spokes) {
-        if !face.ring.contains(&to) {
-            let third = [0, 1, 2].map(|i| (step[i] + a[i] + b[i]) / 3.0);
-            let half = [0, 1, 2].map(|i| (step[i] + a[i]) / 2.0);
-            farthest = farthest.max(old.square(third)).max(old.square(half));
-        }
+    for (_, &[a, b]) in fan.staying(to) {
+        let third = [0, 1, 2].map(|i| (step[i] + a[i] + b[i]) / 3.0);
+        let half = [0, 1, 2].map(|i| (step[i] + a[i]) / 2.0);
+        farthest = farthest.max(old.square(third)).max(old.square(half));
     }
     farthest
 }
