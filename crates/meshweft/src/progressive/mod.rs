@@ -26,6 +26,7 @@ pub mod history;
 pub(crate) mod made;
 mod progressive_mesh;
 mod records;
+mod ring;
 pub mod sequence;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,8 @@
 //! A mesh and its removals.
 
 use super::history::{History, HistoryBuilder, NewRecord};
-use super::records::{Collapse, Records};
+use super::records::{Collapse, Records, SidePair};
+use super::ring::{self, RingFace};
 use crate::error::MeshError;
 use crate::faces::Faces;
 use crate::index::index32;
@@ -152,6 +153,9 @@ impl ProgressiveMesh {
     /// The same removals as records that any sequence update follows: a face whose corners change leaves,
     /// and comes back with a number of its own.
     ///
+    /// New faces are in the order around the removed vertex, counterclockwise as they are wound, beginning
+    /// at the neighbour of lowest number; where several vertices leave together, one after the other.
+    ///
     /// # Errors
     /// [`MeshError::TooLarge`] beyond (2³² − 1) / 3 faces, all that come counted.
     ///
@@ -162,48 +166,59 @@ impl ProgressiveMesh {
         let mut faces = self.faces.clone();
         let mut numbers: Vec<u32> = (0..index32(faces.len())).collect();
         let mut next = index32(faces.len());
-        let (mut vertices, mut into) = (Vec::new(), Vec::new());
+        let (mut vertices, mut into, mut ring) = (Vec::new(), Vec::new(), Vec::new());
         let (mut removed, mut inserted) = (Vec::new(), Vec::new());
         for level in 0..self.last_level() {
             let collapse = self.collapse(level);
+
+            // Vertices that leave, and what they are merged into.
             vertices.clear();
             into.clear();
-            removed.clear();
-            inserted.clear();
             for pair in collapse.pairs() {
                 vertices.push(pair.from);
                 into.extend((pair.from != pair.to).then_some(pair.to));
             }
-            removed.extend(
-                collapse
-                    .leaving_faces()
-                    .iter()
-                    .map(|&face| numbers[face as usize]),
-            );
-            for (pair, corners) in collapse.corners() {
-                for &corner in corners {
+
+            // Faces that leave for good.
+            removed.clear();
+            let leaving = collapse.leaving_faces().iter();
+            removed.extend(leaving.map(|&face| numbers[face as usize]));
+
+            // Faces that come back with another corner and number.
+            inserted.clear();
+            for (SidePair { to, .. }, corners) in collapse.corners() {
+                ring.clear();
+                ring.extend(corners.iter().map(|&corner| ring_face(&faces, corner)));
+                ring::put_in_order(&mut ring);
+                for &RingFace { corner, .. } in &ring {
                     let face = (corner / 3) as usize;
-                    removed.push(numbers[face]);
-                    faces[face][corner as usize % 3] = pair.to;
+                    faces[face][corner as usize % 3] = to;
                     inserted.push(faces[face]);
-                    numbers[face] = next;
+                    removed.push(std::mem::replace(&mut numbers[face], next));
                     next += 1;
                 }
             }
-            builder
-                .push(&NewRecord {
-                    removed_vertices: &vertices,
-                    merges_into: &into,
-                    removed_faces: &removed,
-                    inserted_faces: &inserted,
-                    error: collapse.error(),
-                })
-                .map_err(|_| MeshError::TooLarge {
-                    what: "faces",
-                    limit: crate::index::MAX_FACES,
-                    count: self.faces.len() + self.records.corner_count(),
-                })?;
+
+            let record = NewRecord {
+                removed_vertices: &vertices,
+                merges_into: &into,
+                removed_faces: &removed,
+                inserted_faces: &inserted,
+                error: collapse.error(),
+            };
+            builder.push(&record).map_err(|_| MeshError::TooLarge {
+                what: "faces",
+                limit: crate::index::MAX_FACES,
+                count: self.faces.len() + self.records.corner_count(),
+            })?;
         }
         Ok(builder.finish())
     }
+}
+
+/// The face of a corner, seen from there.
+fn ring_face(faces: &[[u32; 3]], corner: u32) -> RingFace {
+    let face = faces[(corner / 3) as usize];
+    let [from, to] = [1, 2].map(|turn| face[(corner as usize + turn) % 3]);
+    RingFace { corner, from, to }
 }

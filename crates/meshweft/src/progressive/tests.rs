@@ -110,6 +110,48 @@ fn agrees_with_its_history(progressive: &ProgressiveMesh) {
 }
 
 #[test]
+fn new_faces_are_listed_around_the_vertex() {
+    for (faces, seed) in [(sphere(3), 1), (grid(12, 9), 2)] {
+        let positions = somewhere(vertex_count(&faces), seed);
+        let mesh = Mesh::new(positions, faces).unwrap();
+        let progressive = Collapses::default().build(&mesh, &[]).unwrap();
+        let history = progressive.history().unwrap();
+        for record in history.records() {
+            // Around the vertex: what follows each neighbour.
+            let (vertex, into) = (record.removed_vertices[0], record.merges_into[0]);
+            let sides = record.removed_faces.iter().map(|&number| {
+                let face = history.face(number);
+                let at = face.iter().position(|&corner| corner == vertex).unwrap();
+                (face[(at + 1) % 3], face[(at + 2) % 3])
+            });
+            let sides: BTreeMap<u32, u32> = sides.collect();
+            let is_new = |&(&from, &to): &(&u32, &u32)| from != into && to != into;
+            let start = sides.iter().filter(is_new).map(|(&from, _)| from).min();
+
+            // From the lowest on, then from the border on, if there is one.
+            let is_end = |from: &&u32| !sides.values().any(|to| to == *from);
+            let border = sides.keys().find(is_end).copied();
+            let (mut expected, mut from) = (Vec::new(), start);
+            while let Some(neighbour) = from {
+                let to = sides.get(&neighbour).copied();
+                if let Some(to) = to.filter(|&to| neighbour != into && to != into) {
+                    expected.push([into, neighbour, to]);
+                }
+                from = to.or(border).filter(|&next| Some(next) != start);
+            }
+
+            let inserted = record.inserted_faces.map(|number| {
+                let mut face = history.face(number);
+                let at = face.iter().position(|&corner| corner == into).unwrap();
+                face.rotate_left(at);
+                face
+            });
+            assert_eq!(inserted.collect::<Vec<_>>(), expected);
+        }
+    }
+}
+
+#[test]
 fn soups_give_records_that_a_history_takes() {
     let mut random = SplitMix64(5);
     for round in 0..1000 {

@@ -18,6 +18,9 @@
 //! - *Simple* fills the free places of one record from the front, with the new faces in the order of
 //!   the record. "The first n − 2 indices" (2002) and "the empty positions sequentially" (2006) say
 //!   this, and not that a record takes places which others left.
+//! - *In which order has a record its new faces?* The papers do not say, and *simple* depends on it.
+//!   [`ProgressiveMesh::history`](super::ProgressiveMesh::history) lists them around the removed vertex, as
+//!   a simplifier that retriangulates a hole would.
 //! - *A place is given once.* Fig. 5 empties `S(t)` when `t`'s place is given, but its loops
 //!   do not ask for that before they give it again, and go on after a face has its place. Here a face
 //!   takes the first free place that fits, and stops looking.
