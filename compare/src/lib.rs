@@ -7,8 +7,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use meshweft::order::baselines;
-use meshweft::{CacheModel, Mesh, cache};
+use meshweft::files::Document;
+use meshweft::order::{KCacheReorder, baselines, vertex_fetch};
+use meshweft::{CacheModel, Limits, Mesh, cache};
 
 pub mod counting;
 pub mod oracle;
@@ -158,6 +159,42 @@ pub fn read_meshes(files: &[PathBuf]) -> Result<Vec<(String, Mesh)>, String> {
         Ok((mesh_name(file), mesh))
     };
     files.iter().map(read).collect()
+}
+
+/// All meshes of a file as one, with its positions, by the library's own reader.
+///
+/// # Errors
+/// If the file cannot be read, or a mesh in it has no positions.
+pub fn read_as_one(file: &Path) -> Result<Mesh, String> {
+    let in_file = |what: &str| format!("{}: {what}", file.display());
+    let document = Document::open(file, Limits::default()).map_err(|error| error.to_string())?;
+    let (mut positions, mut faces) = (Vec::new(), Vec::new());
+    for (number, entry) in document.meshes().iter().enumerate() {
+        let read = document.positions(number);
+        let read = read.map_err(|error| error.to_string())?;
+        let read = read.ok_or_else(|| in_file("a mesh has no positions"))?;
+        let before = u32::try_from(positions.len()).map_err(|_| in_file("too many vertices"))?;
+        let of_mesh = entry.mesh.faces().iter();
+        faces.extend(of_mesh.map(|face| face.map(|vertex| vertex + before)));
+        positions.extend(read);
+    }
+    Mesh::new(positions, faces).map_err(|error| in_file(&error.to_string()))
+}
+
+/// The order of the library's greedy, fast mode, for a FIFO cache.
+#[must_use]
+pub fn greedy(size: u32) -> KCacheReorder {
+    KCacheReorder {
+        cache: CacheModel::fifo(size),
+        ..KCacheReorder::default()
+    }
+}
+
+/// A mesh with its faces in the greedy's order, and its vertices by first use.
+#[must_use]
+pub fn in_greedy_order(mesh: &Mesh, size: u32) -> Mesh {
+    let mesh = mesh.with_face_order(&greedy(size).face_order(mesh));
+    mesh.with_vertex_order(&vertex_fetch(&mesh))
 }
 
 /// The figure that a cache is judged by: misses per vertex of a GPU, misses per face of any other.

@@ -13,16 +13,15 @@
 mod figures;
 mod ours;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use compare::rivals;
 use compare::timing::median;
-use meshweft::files::Document;
+use meshweft::Mesh;
 use meshweft::geometry::{Surface, deviation};
-use meshweft::order::{Effort, KCacheReorder, vertex_fetch};
-use meshweft::{CacheModel, Limits, Mesh};
+use meshweft::order::Effort;
 
 use figures::{Row, Summary, print_head};
 use ours::ours;
@@ -77,7 +76,8 @@ fn run() -> Result<(), String> {
 
     let mut meshes = Vec::new();
     for file in &files {
-        let mesh = read(file)?;
+        // Both simplify what a pipeline would give them.
+        let mesh = compare::in_greedy_order(&compare::read_as_one(file)?, 11);
         meshes.push((compare::mesh_name(file), mesh));
     }
     println!("Two-sided distances in ten thousandths of the bounding box's diagonal.");
@@ -88,30 +88,6 @@ fn run() -> Result<(), String> {
     summary.print();
     times(&meshes, effort);
     Ok(())
-}
-
-/// All meshes of a file as one, in the order of the library's greedy for a cache of 11 vertices: both
-/// simplify what a pipeline would give them.
-fn read(file: &Path) -> Result<Mesh, String> {
-    let in_file = |what: &str| format!("{}: {what}", file.display());
-    let document = Document::open(file, Limits::default()).map_err(|error| error.to_string())?;
-    let (mut positions, mut faces) = (Vec::new(), Vec::new());
-    for (number, entry) in document.meshes().iter().enumerate() {
-        let read = document.positions(number);
-        let read = read.map_err(|error| error.to_string())?;
-        let read = read.ok_or_else(|| in_file("a mesh has no positions"))?;
-        let before = u32::try_from(positions.len()).map_err(|_| in_file("too many vertices"))?;
-        let of_mesh = entry.mesh.faces().iter();
-        faces.extend(of_mesh.map(|face| face.map(|vertex| vertex + before)));
-        positions.extend(read);
-    }
-    let mesh = Mesh::new(positions, faces).map_err(|error| in_file(&error.to_string()))?;
-    let order = KCacheReorder {
-        cache: CacheModel::fifo(11),
-        ..KCacheReorder::default()
-    };
-    let mesh = mesh.with_face_order(&order.face_order(&mesh));
-    Ok(mesh.with_vertex_order(&vertex_fetch(&mesh)))
 }
 
 /// The table of a mesh: a row a level.
