@@ -4,8 +4,10 @@
 mod data;
 
 use data::{meshes, open};
+use meshweft::files::Document;
+use meshweft::operations::{Method, SequenceUpdate, collapse_history};
 use meshweft::order::{KCacheReorder, Mode};
-use meshweft::{CacheModel, Mesh, cache};
+use meshweft::{CacheModel, Limits, Mesh, cache};
 
 fn ordered(mesh: &Mesh, cache: CacheModel, mode: Mode) -> Vec<[u32; 3]> {
     let algorithm = KCacheReorder {
@@ -100,4 +102,35 @@ fn the_fast_mode_is_no_worse_than_the_paper() {
         scheduled <= 0.600 && belady <= 0.597,
         "{scheduled} {belady}"
     );
+}
+
+#[test]
+fn sequence_updates_rank_as_the_papers_say() {
+    let Some(folder) = meshes() else { return };
+    let model = CacheModel::fifo(12);
+    for name in ["cow.off.gz", "mannequin.off.gz"] {
+        let document = Document::open(&folder.join(name), Limits::default()).unwrap();
+        let positions = document.positions(0).unwrap().unwrap();
+        let mesh = Mesh::new(positions, document.meshes()[0].mesh.faces()).unwrap();
+        let history = collapse_history(&mesh, mesh.face_count() / 10).unwrap();
+        let levels = [80, 50, 20, 10].map(|percent| {
+            let count = mesh.face_count() * percent / 100;
+            history.level_of_faces(count).unwrap()
+        });
+
+        let order = Method::k_cache_reorder(12, Mode::Fast).order(history.full_faces());
+        let [simple, smart, adaptive] = SequenceUpdate::SHOWN.map(|update| {
+            let mut acmr = Vec::new();
+            let visit = |faces: &[[u32; 3]]| acmr.push(cache::acmr(faces, model));
+            update.at_levels(&history, &order, levels, visit).unwrap();
+            acmr
+        });
+        for at in 0..levels.len() {
+            let [simple, smart, adaptive] = [&simple, &smart, &adaptive].map(|acmr| acmr[at]);
+            let text = format!("{name}: {simple} {smart} {adaptive}");
+            assert!(simple > 1.1 * smart && simple > 1.1 * adaptive, "{text}");
+            // Below half of the faces.
+            assert!(at < 2 || adaptive < smart, "{text}");
+        }
+    }
 }

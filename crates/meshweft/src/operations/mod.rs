@@ -4,7 +4,8 @@
 //! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
 //! document and keeps every other byte, `inspect` counts it as it is, and `compare` tells
 //! whether two documents hold the same triangles; their reports are values that know their JSON.
-//! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser.
+//! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
+//! along a history such as [`collapse_history`] makes.
 //!
 //! This is the only place that joins files and algorithms. Read `options`, then `better` for why a run
 //! on its own output changes nothing, then `improve`.
@@ -46,4 +47,4 @@ pub use methods::{Method, grid_orders, linear_arrangement_cost};
 #[cfg(feature = "files")]
 pub use optimize::{CountChange, OptimizeError, OptimizeReport, OptimizedMesh, optimize};
 pub use options::{Greedy, Options, OptionsError};
-pub use sequence_updates::SequenceUpdate;
+pub use sequence_updates::{SequenceUpdate, collapse_history};

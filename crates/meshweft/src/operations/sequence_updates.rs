@@ -1,8 +1,9 @@
-//! Every sequence update by name, for comparison.
+//! Every sequence update by name, for comparison, and histories to compare them on.
 
 use crate::error::MeshError;
+use crate::mesh::Mesh;
 use crate::permutation::FaceOrder;
-use crate::progressive::{AdaptiveUpdate, History, SimpleUpdate, SmartUpdate};
+use crate::progressive::{AdaptiveUpdate, Collapses, History, SimpleUpdate, SmartUpdate};
 
 /// A way to keep up the rendering sequence of a full mesh along a history.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,4 +76,30 @@ impl SequenceUpdate {
         }
         Ok(())
     }
+}
+
+/// The history of half-edge collapses at effort `fast`, down to at most `faces` faces or as few as can be:
+/// [`Collapses`] with everything else at its default.
+///
+/// # Errors
+/// As [`Collapses::build`] and [`ProgressiveMesh::history`](crate::progressive::ProgressiveMesh::history).
+///
+/// # Complexity
+/// As [`Collapses::build`].
+///
+/// ```
+/// use meshweft::{Mesh, operations};
+/// // A pyramid over a square: its tip leaves.
+/// let positions = [[1.0, 1.0, 0.1], [0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
+/// let mesh = Mesh::new(positions, [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])?;
+/// let history = operations::collapse_history(&mesh, 2)?;
+/// assert_eq!((history.removal_order(), history.face_count(1)), (&[0][..], 2));
+/// # Ok::<(), meshweft::MeshError>(())
+/// ```
+pub fn collapse_history(mesh: &Mesh, faces: usize) -> Result<History, MeshError> {
+    let settings = Collapses {
+        faces,
+        ..Collapses::default()
+    };
+    settings.build(mesh, &[])?.history()
 }
