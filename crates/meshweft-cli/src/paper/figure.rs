@@ -17,10 +17,16 @@ pub(super) struct Figure {
 }
 
 /// A figure's name, its key in JSON, and what makes it.
-pub(super) type MakeFigure<'a> = (&'a str, &'a str, &'a dyn Fn() -> Figure);
+pub(super) type MakeFigure<'a> = (&'a str, &'a str, &'a dyn Fn() -> Result<Figure>);
 
-/// Makes one figure after the other and prints it; all of them as JSON in the end.
-pub(super) fn print(report: &Report, doi: &str, figures: &[MakeFigure<'_>]) -> Result<()> {
+/// Makes one figure after the other and prints it; in the end all of them as JSON, and the files that were
+/// written.
+pub(super) fn print(
+    report: &Report,
+    doi: &str,
+    figures: &[MakeFigure<'_>],
+    files: &[String],
+) -> Result<()> {
     let style = ProgressStyle::with_template("[{elapsed}] {msg} {wide_bar} {pos}/{len}")?;
     let progress = ProgressBar::new(figures.len() as u64).with_style(style);
     progress.enable_steady_tick(Duration::from_millis(500));
@@ -29,7 +35,7 @@ pub(super) fn print(report: &Report, doi: &str, figures: &[MakeFigure<'_>]) -> R
     json.insert("paper".into(), json!(format!("doi:{doi}")));
     for &(name, key, make) in figures {
         progress.set_message(name.to_owned());
-        let figure = make();
+        let figure = make()?;
         progress.suspend(|| {
             let rows = columns(&figure.rows);
             report.text(&format!("{name}. {}\n{rows}\n", figure.title))
@@ -39,6 +45,10 @@ pub(super) fn print(report: &Report, doi: &str, figures: &[MakeFigure<'_>]) -> R
     }
 
     progress.finish_and_clear();
+    if !files.is_empty() {
+        report.text(&format!("written: {}", files.join(", ")))?;
+    }
+    json.insert("files".into(), json!(files));
     Ok(report.json("paper", &Value::Object(json))?)
 }
 

@@ -9,7 +9,8 @@ use meshweft::{Limits, Mesh};
 /// Meshes above this many faces are large: they are left out where each takes many runs.
 pub(super) const LARGE: usize = 200_000;
 
-/// The largest mesh of the first file with one of these names, there or in a folder `meshes`.
+/// The largest mesh of the first file with one of these names, there or in a folder `meshes`, with its
+/// positions if it has any.
 pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mesh)>> {
     let folders = [folder.to_owned(), folder.join("meshes")];
     let names = names.iter().flat_map(|name| {
@@ -22,8 +23,15 @@ pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mes
     };
 
     let document = Document::open(&file, Limits::default())?;
-    let largest = document.meshes().iter().max_by_key(|e| e.mesh.face_count());
-    Ok(largest.map(|entry| (file, entry.mesh.clone())))
+    let meshes = document.meshes().iter().enumerate();
+    let Some((number, largest)) = meshes.max_by_key(|(_, it)| it.mesh.face_count()) else {
+        return Ok(None);
+    };
+    let mesh = match document.positions(number)? {
+        Some(positions) => Mesh::new(positions, largest.mesh.faces())?,
+        None => largest.mesh.clone(),
+    };
+    Ok(Some((file, mesh)))
 }
 
 /// Says that the folder has none of a paper's meshes, and how they are looked for.

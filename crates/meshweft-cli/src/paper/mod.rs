@@ -4,6 +4,7 @@ mod arguments;
 mod bogomjakov_gotsman;
 mod figure;
 mod irregular;
+mod levels;
 mod lin_yu;
 mod meshes;
 
@@ -11,6 +12,7 @@ use anyhow::Result;
 use clap::{Args, Subcommand};
 
 use arguments::OfPaper;
+use bogomjakov_gotsman::BogomjakovGotsman;
 
 #[derive(Debug, Args)]
 pub(crate) struct Paper {
@@ -22,19 +24,20 @@ pub(crate) struct Paper {
 enum WhichPaper {
     /// Lin, Yu: An Improved Vertex Caching Scheme for 3D Mesh Rendering (2006)
     ///
-    /// Figures 3, 6, 7, 8, 9 and 10, on the meshes that are found.
+    /// Figures 3 and 6 to 12, on the meshes that are found.
     ///
     ///   meshweft paper lin-yu --data folder-with-meshes
     #[command(verbatim_doc_comment)]
     LinYu(OfPaper),
     /// Bogomjakov, Gotsman: Universal Rendering Sequences for Transparent Vertex Caching (2002)
     ///
-    /// Figures 4a, 4b and 8 and tables 1 and 2, and the universality table of Lin and Yu's figure 10 with
-    /// every order that is available, on the meshes that are found.
+    /// Figures 3, 4, 6, 7 and 8 and tables 1 and 2, and the universality table of Lin and Yu's figure 10 with
+    /// every order that is available, on the meshes that are found and on irregular ones made here.
     ///
     ///   meshweft paper bogomjakov-gotsman --data folder-with-meshes
+    ///   meshweft paper bogomjakov-gotsman --data folder-with-meshes --pictures folder
     #[command(verbatim_doc_comment)]
-    BogomjakovGotsman(OfPaper),
+    BogomjakovGotsman(BogomjakovGotsman),
 }
 
 /// Prints the figures of a paper for the meshes that are found.

@@ -1,4 +1,4 @@
-//! Files that a run writes beside the meshes: lists, orders, plots. None of them replaces anything else.
+//! Files that a run writes beside the meshes: lists, orders, plots, pictures. None of them replaces anything else.
 
 use std::fs;
 use std::io::{self, Read, Write};
@@ -10,6 +10,8 @@ use crate::usage::Usage;
 /// A kind of such files: the flag that names one, and how one is known again.
 pub(crate) struct SideFile {
     pub(crate) flag: &'static str,
+    /// What else can be given with the flag where a file is in the way.
+    pub(crate) other: &'static str,
     /// Whether a file that starts with these bytes is of this kind.
     pub(crate) is_own: fn(&[u8]) -> bool,
 }
@@ -17,6 +19,7 @@ pub(crate) struct SideFile {
 /// What `--write-permutation` writes.
 pub(crate) const PERMUTATION: SideFile = SideFile {
     flag: "--write-permutation",
+    other: "another name",
     is_own: |start| {
         let text = String::from_utf8_lossy(start);
         text.starts_with("{\"schema\":") && text.contains("out[i] = in[new_to_old[i]]")
@@ -26,15 +29,30 @@ pub(crate) const PERMUTATION: SideFile = SideFile {
 /// What `--plot` writes.
 pub(crate) const PLOT: SideFile = SideFile {
     flag: "--plot",
+    other: "another name",
     is_own: |start| {
         let text = String::from_utf8_lossy(start);
         text.starts_with("<svg") && text.contains("Misses per face")
     },
 };
 
+/// What the description of a paper's picture begins with.
+pub(crate) const PICTURE_NAME: &str = "meshweft paper";
+
+/// What `--pictures` writes.
+pub(crate) const PICTURE: SideFile = SideFile {
+    flag: "--pictures",
+    other: "another folder",
+    is_own: |start| {
+        let text = String::from_utf8_lossy(start);
+        text.starts_with("<svg") && text.contains(&format!("<desc>{PICTURE_NAME}"))
+    },
+};
+
 /// What `--manifest` appends to.
 pub(crate) const MANIFEST: SideFile = SideFile {
     flag: "--manifest",
+    other: "another name",
     is_own: |start| {
         // All of it is looked at later: see `is_list`.
         let line = start
@@ -77,8 +95,8 @@ impl SideFile {
             Err(error) => refused(error.to_string()),
             Ok(_) if start.is_empty() || (self.is_own)(&start) => Ok(()),
             Ok(_) => refused(format!(
-                "this file is not one that {flag} writes: choose another name, or give --force to \
-                 replace it"
+                "this file is not one that {flag} writes: choose {}, or give --force to replace it",
+                self.other
             )),
         }
     }

@@ -341,30 +341,6 @@ fn inspect_plots_a_curve_for_each_file_and_method() {
 }
 
 #[test]
-fn papers_without_their_meshes_say_what_they_look_for() {
-    let folder = Folder::new("papers");
-    folder.write("other.obj", grid_obj());
-    for paper in ["lin-yu", "bogomjakov-gotsman"] {
-        let failed = folder.run(&["paper", paper, "--data", "."]);
-        assert_eq!(failed.code(), 1);
-        assert!(failed.err().contains("bunny.ply"), "{}", failed.err());
-    }
-}
-
-#[test]
-fn both_halves_of_figure_4_need_no_file_of_their_own() {
-    let folder = Folder::new("figure-4");
-    for name in ["eight.obj", "face.obj"] {
-        folder.write(name, grid_obj());
-    }
-    let run = folder.run(&["paper", "bogomjakov-gotsman", "--data", "."]);
-    let text = run.out();
-    for half in ["Fig. 4a. The regular grid", "Fig. 4b. An irregular mesh"] {
-        assert!(text.contains(half), "{text}");
-    }
-}
-
-#[test]
 fn every_report_begins_with_schema_and_command() {
     let folder = Folder::new("reports");
     for name in ["eight.obj", "face.obj"] {

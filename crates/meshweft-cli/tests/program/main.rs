@@ -7,6 +7,7 @@ mod demo;
 mod disk;
 mod many;
 mod nothing_lost;
+mod papers;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -45,14 +45,14 @@ pub(super) fn put_in_range(mesh: &mut Triangulation, boundary: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{BOUNDARY, points};
+    use super::super::{BOUNDARY, VERTICES, points};
     use super::*;
 
     #[test]
     fn most_meshes_get_there_by_few_flips() {
         let mut in_range = 0;
         for seed in 1..=20 {
-            let before = Triangulation::of_disk(points(seed), BOUNDARY);
+            let before = Triangulation::of_disk(points(VERTICES, BOUNDARY, seed), BOUNDARY);
             let mut after = before.clone();
             if put_in_range(&mut after, BOUNDARY) {
                 in_range += 1;

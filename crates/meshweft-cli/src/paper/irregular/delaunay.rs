@@ -187,6 +187,7 @@ fn in_circle(corners: [[i64; 2]; 3], point: [i64; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{BOUNDARY, VERTICES, points};
     use super::*;
 
     fn check(made: &Triangulation, boundary: usize) {
@@ -216,8 +217,8 @@ mod tests {
     #[test]
     fn no_point_is_inside_a_circle() {
         for seed in 1..4 {
-            let points = super::super::points(seed);
-            check(&Triangulation::of_disk(points, super::super::BOUNDARY), 66);
+            let points = points(VERTICES, BOUNDARY, seed);
+            check(&Triangulation::of_disk(points, BOUNDARY), BOUNDARY);
         }
     }
 

@@ -14,11 +14,6 @@ use meshweft::{Mesh, Permutation};
 
 use delaunay::Triangulation;
 
-/// Vertices of the paper's mesh.
-pub(super) const VERTICES: usize = 509;
-/// Vertices on the boundary: a disk of as many and of [`VERTICES`] in all has 950 faces, as the paper's.
-pub(super) const BOUNDARY: usize = 66;
-
 /// Lattice points along each side of the square around the inner points, a power of two.
 const LATTICE: u32 = 1024;
 /// How far these are from each other.
@@ -28,31 +23,71 @@ const RADIUS: f64 = 17_500.0;
 /// How many points each inner one is chosen from.
 const CANDIDATES: usize = 5;
 
-/// The mesh, drawn in the plane z = 0; the vertices of the boundary are the first, counterclockwise.
-pub(super) fn irregular_mesh(seed: u64) -> Mesh {
-    // Seldom the flips do not get all degrees into their range: then the next seed is taken.
-    let mut made = (0..).map(|more: u64| {
-        let mut mesh = Triangulation::of_disk(points(seed.wrapping_add(more)), BOUNDARY);
-        degrees::put_in_range(&mut mesh, BOUNDARY).then_some(mesh)
-    });
-    let mesh = made.by_ref().flatten().next();
-    let faces = mesh.expect("a seed without end").into_faces();
+/// A mesh of the paper's counts, 509 and 950: as many on the boundary give as many faces.
+pub(super) const VERTICES: usize = 509;
+pub(super) const BOUNDARY: usize = 66;
 
-    let drawn = tutte::drawing(&faces, VERTICES, BOUNDARY);
-    #[expect(clippy::cast_possible_truncation, reason = "rounded")]
-    let single = drawn.into_iter().map(|[x, y]| [x as f32, y as f32, 0.0]);
-    Mesh::new(single.collect::<Vec<_>>(), faces).expect("faces of these vertices")
+/// An irregular disk; the vertices of the boundary are the first, counterclockwise.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Irregular {
+    points: Vec<[i64; 2]>,
+    faces: Vec<[u32; 3]>,
+    boundary: usize,
+}
+
+impl Irregular {
+    /// A disk of `vertices`, of which `boundary`, at least nine, are on its boundary.
+    pub(super) fn new(vertices: usize, boundary: usize, seed: u64) -> Self {
+        // Seldom the flips do not get all degrees into their range: then the next seed is taken.
+        let mut made = (0..).map(|more: u64| {
+            let points = points(vertices, boundary, seed.wrapping_add(more));
+            let mut mesh = Triangulation::of_disk(points.clone(), boundary);
+            let is_in_range = degrees::put_in_range(&mut mesh, boundary);
+            is_in_range.then(|| Self {
+                points,
+                faces: mesh.into_faces(),
+                boundary,
+            })
+        });
+        let mesh = made.by_ref().flatten().next();
+        mesh.expect("a seed without end")
+    }
+
+    /// The mesh of the paper's counts.
+    pub(super) fn of_the_paper() -> Self {
+        Self::new(VERTICES, BOUNDARY, 1)
+    }
+
+    /// Drawn by Tutte's embedding in the circle of radius 1, in the plane z = 0.
+    pub(super) fn drawing(&self) -> Mesh {
+        let drawn = tutte::drawing(&self.faces, self.points.len(), self.boundary);
+        self.mesh(drawn.into_iter().map(|[x, y]| [x, y, 0.0]))
+    }
+
+    /// Where the points were taken, in the circle of radius 1, on a paraboloid of height 1/2: a surface
+    /// that a simplifier can tell from its approximations.
+    pub(super) fn surface(&self) -> Mesh {
+        let scaled = self.points.iter().map(|p| p.map(|x| x as f64 / RADIUS));
+        self.mesh(scaled.map(|[x, y]| [x, y, (1.0 - x * x - y * y) / 2.0]))
+    }
+
+    fn mesh(&self, positions: impl Iterator<Item = [f64; 3]>) -> Mesh {
+        #[expect(clippy::cast_possible_truncation, reason = "rounded")]
+        let single = positions.map(|position| position.map(|x| x as f32));
+        let positions: Vec<[f32; 3]> = single.collect();
+        Mesh::new(positions, self.faces.as_slice()).expect("faces of these vertices")
+    }
 }
 
 /// The points of the boundary, and inside it those that are farthest from all others of five each, taken
 /// at random.
-fn points(seed: u64) -> Vec<[i64; 2]> {
+fn points(vertices: usize, boundary: usize, seed: u64) -> Vec<[i64; 2]> {
     #[expect(
         clippy::cast_possible_truncation,
         reason = "far below the largest integer"
     )]
     let on_lattice = |x: f64| (x * RADIUS).round() as i64;
-    let rim = tutte::circle(BOUNDARY).into_iter();
+    let rim = tutte::circle(boundary).into_iter();
     let mut points: Vec<[i64; 2]> = rim.map(|point| point.map(on_lattice)).collect();
 
     // Each lattice point once, those in the disk.
@@ -63,7 +98,7 @@ fn points(seed: u64) -> Vec<[i64; 2]> {
         .map(|n| [n % LATTICE, n / LATTICE].map(|i| (i64::from(i) - half) * SPACING))
         .filter(|[x, y]| x * x + y * y < (half * SPACING).pow(2));
 
-    while points.len() < VERTICES {
+    while points.len() < vertices {
         let candidates = inner.by_ref().take(CANDIDATES);
         let room = |p: &[i64; 2]| {
             let squares = points
@@ -84,7 +119,7 @@ mod tests {
     #[test]
     fn the_counts_and_degrees_of_the_paper() {
         for seed in 1..6 {
-            let mesh = irregular_mesh(seed);
+            let mesh = Irregular::new(VERTICES, BOUNDARY, seed).drawing();
             assert_eq!((mesh.vertex_count(), mesh.face_count()), (509, 950));
 
             // Each edge of a face is in one other face, the other way round, or on the boundary.
@@ -112,20 +147,26 @@ mod tests {
             // Irregular: not six nearly everywhere.
             let others = inner.iter().filter(|&&degree| degree != 6).count();
             assert!(others > 150, "{others}");
-            assert_ne!(mesh, irregular_mesh(seed + 100));
+            let other = Irregular::new(VERTICES, BOUNDARY, seed + 100);
+            assert_ne!(mesh, other.drawing());
         }
-        assert_eq!(irregular_mesh(1), irregular_mesh(1));
+        let again = Irregular::new(VERTICES, BOUNDARY, 1);
+        assert_eq!(Irregular::of_the_paper(), again);
     }
 
     #[test]
-    fn no_face_is_turned_over_in_the_drawing() {
+    fn no_face_is_turned_over_seen_from_above() {
         for seed in 1..6 {
-            let mesh = irregular_mesh(seed);
-            for face in mesh.faces() {
-                let [a, b, c] = face.map(|v| mesh.positions()[v as usize].map(f64::from));
-                let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-                assert!(twice > 0.0, "{face:?}: {twice}");
-                assert_eq!([a[2], b[2], c[2]], [0.0; 3]);
+            for (vertices, boundary) in [(VERTICES, BOUNDARY), (40, 12), (20, 9)] {
+                let disk = Irregular::new(vertices, boundary, seed);
+                for mesh in [disk.drawing(), disk.surface()] {
+                    assert_eq!(mesh.face_count(), 2 * vertices - 2 - boundary);
+                    for face in mesh.faces() {
+                        let [a, b, c] = face.map(|v| mesh.positions()[v as usize].map(f64::from));
+                        let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+                        assert!(twice > 0.0, "{face:?}: {twice}");
+                    }
+                }
             }
         }
     }

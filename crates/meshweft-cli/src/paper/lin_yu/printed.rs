@@ -111,3 +111,43 @@ pub(super) const FIG_9: [(&str, [f64; 4]); 5] = [
     ("bunny", [0.628_079, 0.628_054, 0.628_126, 2.48e-5]),
     ("dragon", [0.653_256, 0.653_158, 0.654_203, 0.000_23]),
 ];
+
+/// Percent of the vertices in use that are left in the rows of Fig. 12.
+pub(super) const FIG_12_PERCENT: [usize; 3] = [80, 50, 20];
+
+/// What a sequence update has to do up to a level.
+pub(super) struct Work {
+    /// Deleted vertices, deleted faces, inserted faces.
+    pub(super) counts: [usize; 3],
+    /// For the update, from full resolution.
+    pub(super) seconds: f64,
+    /// For a new order of the level; the paper has no such column.
+    pub(super) new_order: Option<f64>,
+}
+
+const fn work(counts: [usize; 3], seconds: f64) -> Work {
+    Work {
+        counts,
+        seconds,
+        new_order: None,
+    }
+}
+
+/// Fig. 12: the adaptive update.
+#[rustfmt::skip]
+pub(super) const FIG_12: [(&str, [Work; 3]); 4] = [
+    ("cow", [
+        work([581, 3475, 2315], 0.016), work([1467, 8618, 5716], 0.047), work([2389, 13487, 8844], 0.047),
+    ]),
+    ("mannequin", [
+        work([2340, 13644, 8964], 0.078), work([5851, 33369, 21667], 0.14), work([9361, 52306, 33584], 0.203),
+    ]),
+    ("bunny", [
+        work([6957, 41195, 27304], 0.266), work([17377, 102_464, 67738], 0.469),
+        work([27811, 162_469, 106_908], 0.687),
+    ]),
+    ("buddha", [
+        work([108_772, 598_959, 381_415], 4.484), work([271_929, 1_505_322, 961_464], 7.688),
+        work([435_086, 2_401_098, 1_530_926], 11.406),
+    ]),
+];

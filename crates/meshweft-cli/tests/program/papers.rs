@@ -1,0 +1,68 @@
+//! `paper`: figures of papers, on meshes that are found and made here.
+
+use crate::Folder;
+use crate::basics::grid_obj;
+
+#[test]
+fn papers_without_their_meshes_say_what_they_look_for() {
+    let folder = Folder::new("papers");
+    folder.write("other.obj", grid_obj());
+    for paper in ["lin-yu", "bogomjakov-gotsman"] {
+        let failed = folder.run(&["paper", paper, "--data", "."]);
+        assert_eq!(failed.code(), 1);
+        assert!(failed.err().contains("bunny.ply"), "{}", failed.err());
+    }
+}
+
+#[test]
+fn both_halves_of_figure_4_need_no_file_of_their_own() {
+    let folder = Folder::new("figure-4");
+    for name in ["eight.obj", "face.obj"] {
+        folder.write(name, grid_obj());
+    }
+    let run = folder.run(&["paper", "bogomjakov-gotsman", "--data", "."]);
+    let text = run.out();
+    for half in ["Fig. 4a. The regular grid", "Fig. 4b. An irregular mesh"] {
+        assert!(text.contains(half), "{text}");
+    }
+}
+
+#[test]
+fn pictures_of_a_paper_replace_no_file_of_others() {
+    let folder = Folder::new("pictures");
+    for name in ["eight.obj", "face.obj"] {
+        folder.write(name, grid_obj());
+    }
+    let flags = ["paper", "bogomjakov-gotsman", "--data", ".", "--pictures"];
+    let run = folder.run(&[&flags[..], &["drawn/here", "--json"]].concat());
+    let written: Vec<String> = ["3a", "3b", "4b", "6"]
+        .map(|figure| format!("drawn/here/figure-{figure}.svg"))
+        .into();
+    let json = run.json();
+    let files = json["files"].as_array().unwrap().iter();
+    let files = files.map(|file| file.as_str().unwrap().replace('\\', "/"));
+    assert!(files.eq(written.iter().cloned()));
+    let pictures: Vec<Vec<u8>> = written.iter().map(|name| folder.read(name)).collect();
+    assert!(pictures.iter().all(|picture| picture.starts_with(b"<svg")));
+
+    // Its own files are replaced, by the same bytes.
+    assert_eq!(
+        folder.run(&[&flags[..], &["drawn/here"]].concat()).code(),
+        0
+    );
+    let again: Vec<Vec<u8>> = written.iter().map(|name| folder.read(name)).collect();
+    assert!(pictures == again);
+
+    // Those of others are not, and nothing is written.
+    folder.write("drawn/here/figure-6.svg", "<svg>a drawing</svg>");
+    std::fs::remove_file(folder.0.join("drawn/here/figure-3a.svg")).unwrap();
+    let refused = folder.run(&[&flags[..], &["drawn/here"]].concat());
+    assert_eq!(refused.code(), 2);
+    for part in ["figure-6.svg", "choose another folder", "--force"] {
+        assert!(refused.err().contains(part), "{}", refused.err());
+    }
+    assert!(!folder.0.join("drawn/here/figure-3a.svg").exists());
+    let forced = folder.run(&[&flags[..], &["drawn/here", "--force"]].concat());
+    assert_eq!(forced.code(), 0);
+    assert!(folder.read("drawn/here/figure-6.svg") == pictures[3]);
+}
