@@ -17,11 +17,15 @@
 //! updates of the two papers. Ours is made by half-edge collapses: [`Collapses`] decides which vertex leaves
 //! next, and makes a [`ProgressiveMesh`]. There a record only changes corners and takes faces away, so every
 //! face keeps its place in the sequence, and a [`Walk`] from one level to another edits it in place.
-//! [`Checkpoints`] are orders for some levels, so that the sequence stays good down to the coarsest.
+//! [`Checkpoints`] are orders for some levels, so that the sequence stays good down to the coarsest; a
+//! [`CheckpointWalk`] writes the faces of a level in that sequence, and an [`IndexBuffer`] keeps them as a renderer
+//! does and says which of them changed.
 
+mod checkpoint_walk;
 mod checkpoints;
 mod collapses;
 pub mod history;
+mod index_buffer;
 #[cfg(test)]
 pub(crate) mod made;
 mod progressive_mesh;
@@ -31,10 +35,14 @@ pub mod sequence;
 #[cfg(test)]
 mod tests;
 mod walk;
+#[cfg(test)]
+mod walk_tests;
 
-pub use checkpoints::{CheckpointWalk, Checkpoints};
+pub use checkpoint_walk::CheckpointWalk;
+pub use checkpoints::Checkpoints;
 pub use collapses::{AttributeWeights, Collapses};
 pub use history::{History, HistoryBuilder, NewRecord, Record};
+pub use index_buffer::IndexBuffer;
 pub use progressive_mesh::{ProgressiveMesh, StopReason};
 pub use records::{Collapse, SidePair};
 pub use sequence::{AdaptiveUpdate, SimpleUpdate, SmartUpdate};

@@ -1,6 +1,7 @@
 //! From one level to another, in time proportional to the removals between them.
 
 use super::progressive_mesh::ProgressiveMesh;
+use super::records::SidePair;
 
 /// A progressive mesh at a level that changes: the faces are edited in place.
 #[derive(Debug, Clone)]
@@ -38,40 +39,43 @@ impl<'a> Walk<'a> {
     /// # Panics
     /// If there is no such level.
     pub fn go_to(&mut self, level: usize) {
+        self.go_to_marking(level, |_| ());
+    }
+
+    /// Goes to a level; says which faces change, come or leave, some of them several times.
+    #[inline]
+    pub(super) fn go_to_marking(&mut self, level: usize, mut mark: impl FnMut(u32)) {
         assert!(level <= self.mesh.last_level(), "no level {level}");
         while self.level < level {
-            self.coarsen();
+            self.play(self.level, |pair| pair.to, false, &mut mark);
+            self.level += 1;
         }
         while self.level > level {
-            self.refine();
+            self.level -= 1;
+            self.play(self.level, |pair| pair.from, true, &mut mark);
         }
     }
 
-    fn coarsen(&mut self) {
-        let collapse = self.mesh.collapse(self.level);
+    /// Gives the corners of a record the vertex that they get, and lets its faces leave or come.
+    #[inline]
+    fn play(
+        &mut self,
+        record: usize,
+        vertex: impl Fn(SidePair) -> u32,
+        is_live: bool,
+        mark: &mut impl FnMut(u32),
+    ) {
+        let collapse = self.mesh.collapse(record);
         let corners = self.faces.as_flattened_mut();
         for (pair, changed) in collapse.corners() {
             for &corner in changed {
-                corners[corner as usize] = pair.to;
+                corners[corner as usize] = vertex(pair);
+                mark(corner / 3);
             }
         }
         for &face in collapse.leaving_faces() {
-            self.is_live[face as usize] = false;
-        }
-        self.level += 1;
-    }
-
-    fn refine(&mut self) {
-        self.level -= 1;
-        let collapse = self.mesh.collapse(self.level);
-        let corners = self.faces.as_flattened_mut();
-        for (pair, changed) in collapse.corners() {
-            for &corner in changed {
-                corners[corner as usize] = pair.from;
-            }
-        }
-        for &face in collapse.leaving_faces() {
-            self.is_live[face as usize] = true;
+            self.is_live[face as usize] = is_live;
+            mark(face);
         }
     }
 
@@ -100,14 +104,24 @@ impl<'a> Walk<'a> {
     /// # Complexity
     /// Time O(faces of the full mesh); memory only if `out` is too small.
     pub fn emit(&self, out: &mut Vec<[u32; 3]>) {
-        out.clear();
-        out.resize(self.mesh.face_count(self.level), [0; 3]);
+        let faces = self.faces.iter().zip(&self.is_live);
+        self.emit_live(faces.map(|(&face, &is_live)| (face, is_live)), out);
+    }
+
+    /// Writes those of these faces that are there to `out`, in their order; all that are there are among them.
+    pub(super) fn emit_in(&self, order: &[u32], out: &mut Vec<[u32; 3]>) {
+        let faces = order.iter();
+        self.emit_live(faces.map(|&face| (self.face(face), self.has(face))), out);
+    }
+
+    fn emit_live(&self, faces: impl Iterator<Item = ([u32; 3], bool)>, out: &mut Vec<[u32; 3]>) {
+        // Without a branch each face is written, and the next one over it if it has left.
+        out.resize(self.mesh.face_count(self.level) + 1, [0; 3]);
         let mut at = 0;
-        for (&face, &is_live) in self.faces.iter().zip(&self.is_live) {
-            if is_live {
-                out[at] = face;
-                at += 1;
-            }
+        for (face, is_live) in faces {
+            out[at] = face;
+            at += usize::from(is_live);
         }
+        out.truncate(at);
     }
 }
