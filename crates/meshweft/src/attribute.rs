@@ -186,6 +186,51 @@ impl Values {
         }
     }
 
+    /// As many zeros of a type.
+    #[cfg(feature = "files")]
+    pub(crate) fn zeros(component_type: ComponentType, len: usize) -> Self {
+        match component_type {
+            ComponentType::I8 => Self::I8(vec![0; len]),
+            ComponentType::U8 => Self::U8(vec![0; len]),
+            ComponentType::I16 => Self::I16(vec![0; len]),
+            ComponentType::U16 => Self::U16(vec![0; len]),
+            ComponentType::I32 => Self::I32(vec![0; len]),
+            ComponentType::U32 => Self::U32(vec![0; len]),
+            ComponentType::F32 => Self::F32(vec![0.0; len]),
+            ComponentType::F64 => Self::F64(vec![0.0; len]),
+        }
+    }
+
+    /// Copies elements of `from`, by their numbers, to the places from `start` on. Both have elements of so
+    /// many components.
+    ///
+    /// # Panics
+    /// If their types differ, or an element is not there.
+    #[cfg(feature = "files")]
+    pub(crate) fn put(
+        &mut self,
+        start: usize,
+        from: &Self,
+        components: usize,
+        elements: impl Iterator<Item = u32>,
+    ) {
+        match (self, from) {
+            (Self::I8(to), Self::I8(from)) => put(to, start, from, components, elements),
+            (Self::U8(to), Self::U8(from)) => put(to, start, from, components, elements),
+            (Self::I16(to), Self::I16(from)) => put(to, start, from, components, elements),
+            (Self::U16(to), Self::U16(from)) => put(to, start, from, components, elements),
+            (Self::I32(to), Self::I32(from)) => put(to, start, from, components, elements),
+            (Self::U32(to), Self::U32(from)) => put(to, start, from, components, elements),
+            (Self::F32(to), Self::F32(from)) => put(to, start, from, components, elements),
+            (Self::F64(to), Self::F64(from)) => put(to, start, from, components, elements),
+            (to, from) => panic!(
+                "values of type {:?} among those of type {:?}",
+                from.component_type(),
+                to.component_type()
+            ),
+        }
+    }
+
     /// The bytes of all components, the lowest of each first.
     #[must_use]
     pub fn to_le_bytes(&self) -> Vec<u8> {
@@ -199,6 +244,20 @@ impl Values {
             Self::F32(values) => bytes_of_each(values, f32::to_le_bytes),
             Self::F64(values) => bytes_of_each(values, f64::to_le_bytes),
         }
+    }
+}
+
+#[cfg(feature = "files")]
+fn put<T: Copy>(
+    to: &mut [T],
+    start: usize,
+    from: &[T],
+    components: usize,
+    elements: impl Iterator<Item = u32>,
+) {
+    let places = to[start * components..].chunks_exact_mut(components.max(1));
+    for (place, element) in places.zip(elements) {
+        place.copy_from_slice(&from[element as usize * components..][..components]);
     }
 }
 

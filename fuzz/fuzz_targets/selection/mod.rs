@@ -15,7 +15,7 @@ pub(crate) fn check(document: &mut Document) {
         .enumerate()
         .filter(|(_, faces)| !faces.is_empty());
     let faces: Vec<SelectedFaces<'_>> = faces
-        .map(|(mesh, faces)| SelectedFaces { mesh, faces })
+        .map(|(mesh, faces)| SelectedFaces::new(mesh, faces))
         .collect();
 
     // The vertices that are used, of each group.
@@ -51,7 +51,7 @@ pub(crate) fn check(document: &mut Document) {
             assert_eq!(main_bytes(document), before, "an error changes nothing");
             continue;
         }
-        for SelectedFaces { mesh, faces } in &faces {
+        for SelectedFaces { mesh, faces, .. } in &faces {
             assert_eq!(document.meshes()[*mesh].mesh.face_count(), faces.len());
         }
         let read = Document::from_bytes(

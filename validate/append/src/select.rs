@@ -29,7 +29,7 @@ pub(crate) fn select(from: &Path, to: &Path) -> Result<(), Box<dyn Error>> {
         .enumerate()
         .filter(|(_, faces)| !faces.is_empty());
     let faces: Vec<SelectedFaces<'_>> = faces
-        .map(|(mesh, faces)| SelectedFaces { mesh, faces })
+        .map(|(mesh, faces)| SelectedFaces::new(mesh, faces))
         .collect();
     let vertices = used.iter().filter(|(_, vertices)| !vertices.is_empty());
     let vertices: Vec<SelectedVertices<'_>> = vertices

@@ -32,6 +32,11 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     fn store(&self, _mesh: usize, _info: &AttributeInfo) -> Option<usize> {
         None
     }
+    /// For each corner of a mesh, three a face, a number: corners of one vertex have the same if the same is
+    /// stored with them and holds for their faces (materials, groups). Empty if that is so for all.
+    fn corner_kinds(&self, _mesh: usize) -> Result<Vec<u32>, Problem> {
+        Ok(Vec::new())
+    }
     /// Does [`Edit::Order`](super::Edit::Order); the caller has checked the orders.
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>);
     /// Does [`Edit::Select`](super::Edit::Select), or changes nothing; the notes of the document as it

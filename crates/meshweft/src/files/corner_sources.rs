@@ -8,16 +8,8 @@ use std::collections::{BTreeSet, HashMap};
 
 use super::entry::MeshEntry;
 use super::error::Problem;
-use super::select::{PlannedTriangle, face_problem};
+use super::select::{PlannedTriangle, RecordCorner, face_problem};
 use crate::index::index32;
-
-/// A corner of a face record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct RecordCorner {
-    pub(super) record: usize,
-    /// Its place among the corners of the record.
-    pub(super) place: usize,
-}
 
 /// All corners of a file that stores something with them.
 pub(super) struct CornerSources {
@@ -228,6 +220,8 @@ mod tests {
             polygons: None,
             runs: vec![0],
             vertex_group: 0,
+            object: 0,
+            has_other_faces: false,
             faces_movable: true,
             vertices_movable: true,
             corners_turnable: true,
@@ -247,6 +241,7 @@ mod tests {
                 record,
                 fan: 0,
                 corners,
+                sources: None,
             };
             sources.source(&triangle, corner).unwrap()
         };
@@ -275,6 +270,7 @@ mod tests {
             record: 0,
             fan: 0,
             corners: [0, 1, 7],
+            sources: None,
         };
         let problem = sources.source(&triangle, 2).unwrap_err();
         let text = problem.kind.to_string();

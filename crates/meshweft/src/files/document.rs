@@ -326,6 +326,21 @@ impl Document {
         each.collect()
     }
 
+    /// A number of where the values of an attribute are stored: meshes with the same number share them.
+    pub(crate) fn store(&self, mesh: usize, info: &AttributeInfo) -> Option<usize> {
+        self.content.store(mesh, info)
+    }
+
+    /// For each corner of a mesh, three a face, a number: corners of one vertex have the same if the same is
+    /// stored with them and holds for their faces, such as a material. Empty if that is so for all.
+    ///
+    /// # Errors
+    /// As [`attribute`](Self::attribute).
+    pub(crate) fn corner_kinds(&self, mesh: usize) -> Result<Vec<u32>, FileError> {
+        let kinds = self.content.corner_kinds(mesh);
+        kinds.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
+    }
+
     /// The attribute that is the positions of a mesh.
     fn position_info(&self, mesh: usize) -> Option<AttributeInfo> {
         let is_position = |info: &AttributeInfo| {

@@ -38,7 +38,8 @@ pub enum Edit<'a> {
     ///   record without faces (of fewer than three corners) leaves with the first vertex that leaves.
     /// - What is stored with a face stays with it. What is stored with a corner follows the corner; one
     ///   that moves to another vertex takes what the other corners at that vertex have, of its side of a
-    ///   seam if they differ, and where this cannot be told it is an error.
+    ///   seam if they differ, and where this cannot be told it is an error: then say which corner it is
+    ///   ([`SelectedFaces::corner_sources`]).
     /// - STL files, and meshes of a glTF without indices, store no vertices but corners. Theirs are copies
     ///   of what the vertex has in the source, which vertices stay follows from the faces, and a facet of
     ///   an STL file that has changed gets the normal of its corners.
@@ -92,7 +93,7 @@ impl<'a> Edit<'a> {
     /// let (name, limits) = ("two.off".as_ref(), Limits::default());
     /// let mut document = Document::from_bytes(text.into(), Format::Off, name, limits)?;
     /// let faces = [SelectedFace { face: 0, corners: [0, 1, 2] }];
-    /// let faces = [SelectedFaces { mesh: 0, faces: &faces }];
+    /// let faces = [SelectedFaces::new(0, &faces)];
     /// let vertices = [SelectedVertices { vertex_group: 0, vertices: &[0, 1, 2] }];
     /// document.edit(Edit::select(&faces, &vertices))?;
     /// assert_eq!(document.to_main_bytes()?, b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");

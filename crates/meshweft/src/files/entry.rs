@@ -27,6 +27,12 @@ pub struct MeshEntry {
     pub runs: Vec<u32>,
     /// Meshes with the same number share their vertices: a vertex order for one renumbers all.
     pub vertex_group: usize,
+    /// Meshes with the same number are parts of one object, as the primitives of a glTF mesh are: their
+    /// surfaces may meet.
+    pub object: usize,
+    /// Whether the object has faces that are not in any of these meshes (strips, compressed faces, …) and may
+    /// meet those that are.
+    pub has_other_faces: bool,
     /// Whether face records may be moved and turned; not where the order of the faces is part of the
     /// picture, as that of transparent ones.
     pub faces_movable: bool,
@@ -47,11 +53,23 @@ impl MeshEntry {
     }
 
     /// The faces of `record` in [`mesh`](Self::mesh), as a range.
-    pub(super) fn faces_of(&self, record: usize) -> Range<usize> {
+    pub(crate) fn faces_of(&self, record: usize) -> Range<usize> {
         match &self.polygons {
             Some(starts) => starts[record] as usize..starts[record + 1] as usize,
             None => record..record + 1,
         }
+    }
+
+    /// What belongs to each corner of the faces, three a face: `of_record` has it for the corners of a record.
+    pub(super) fn of_face_corners(&self, mut of_record: impl FnMut(usize) -> Vec<u32>) -> Vec<u32> {
+        let mut all = Vec::with_capacity(3 * self.mesh.face_count());
+        for record in 0..self.record_count() {
+            let own = of_record(record);
+            for fan in 0..self.faces_of(record).len() {
+                all.extend([own[0], own[fan + 1], own[fan + 2]]);
+            }
+        }
+        all
     }
 
     /// The vertices of a record that is cut into a fan of faces: one or more.
@@ -280,6 +298,8 @@ mod tests {
             polygons,
             runs,
             vertex_group: 0,
+            object: 0,
+            has_other_faces: false,
             faces_movable: true,
             vertices_movable: true,
             corners_turnable: true,

@@ -17,7 +17,7 @@ pub struct Note {
 }
 
 impl Note {
-    pub(super) fn new(place: Place, text: impl Into<String>) -> Self {
+    pub(crate) fn new(place: Place, text: impl Into<String>) -> Self {
         let text = text.into();
         Self {
             place,

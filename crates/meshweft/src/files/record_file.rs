@@ -194,18 +194,7 @@ impl<N: SelectNotation> RecordFile<N> {
             Some(vertices) if self.vertices.len() > 0 => vertices.old_to_new.as_slice(),
             _ => &[],
         };
-        let source = SelectSource {
-            stored: StoredMesh {
-                source: &self.source,
-                vertices: &self.vertices,
-                faces: &self.faces,
-                entry: &self.entries[0],
-                orders: &self.orders,
-            },
-            companions: &self.companions,
-            lines: &self.lines,
-            old_to_new,
-        };
+        let source = self.select_source(old_to_new);
         let mut writer = self.notation.select_writer(&source);
         let rows = self.notation.vertex_rows();
         let SelectedFile {
@@ -223,6 +212,22 @@ impl<N: SelectNotation> RecordFile<N> {
             _ => return Err(otherwise()),
         }
         Ok((file, notes))
+    }
+
+    /// The records where they stand, with these new numbers of the vertices.
+    fn select_source<'a>(&'a self, old_to_new: &'a [u32]) -> SelectSource<'a> {
+        SelectSource {
+            stored: StoredMesh {
+                source: &self.source,
+                vertices: &self.vertices,
+                faces: &self.faces,
+                entry: &self.entries[0],
+                orders: &self.orders,
+            },
+            companions: &self.companions,
+            lines: &self.lines,
+            old_to_new,
+        }
     }
 
     /// The faces that are left.
@@ -295,6 +300,14 @@ impl<N: SelectNotation> Content for RecordFile<N> {
             orders: &self.orders,
         };
         self.notation.attribute(&stored, info)
+    }
+
+    fn corner_kinds(&self, _mesh: usize) -> Result<Vec<u32>, Problem> {
+        if !self.orders.is_empty() {
+            return self.settled()?.corner_kinds(0);
+        }
+        let source = self.select_source(&[]);
+        Ok(self.notation.corner_kinds(&source, &self.options))
     }
 
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>) {

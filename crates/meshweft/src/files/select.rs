@@ -28,6 +28,24 @@ pub struct SelectedFaces<'a> {
     pub mesh: usize,
     /// Its faces, in the order in which they are drawn from now on: one or more, each at most once.
     pub faces: &'a [SelectedFace],
+    /// For each of these faces, which corners of the source have what its corners are to store: three times
+    /// a face of the mesh plus 0, 1 or 2, each at the vertex that the corner has from now on. Empty if that
+    /// follows from the sides of seams, as [`Edit::Select`](super::Edit::Select) says. Only formats that
+    /// store something with corners look at it.
+    pub corner_sources: &'a [[u32; 3]],
+}
+
+impl<'a> SelectedFaces<'a> {
+    /// Faces of a mesh, whose corners take what the sides of seams say.
+    #[must_use]
+    pub fn new(mesh: usize, faces: &'a [SelectedFace]) -> Self {
+        let corner_sources = &[];
+        Self {
+            mesh,
+            faces,
+            corner_sources,
+        }
+    }
 }
 
 /// The vertices of a vertex group that stay, for [`Edit::Select`](super::Edit::Select).
@@ -76,6 +94,16 @@ pub(super) struct PlannedTriangle {
     pub(super) fan: u32,
     /// Its vertices, by their old numbers.
     pub(super) corners: [u32; 3],
+    /// The corners that have what its corners are to store, if that was said.
+    pub(super) sources: Option<[RecordCorner; 3]>,
+}
+
+/// A corner of a face record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct RecordCorner {
+    pub(super) record: usize,
+    /// Its place among the corners of the record.
+    pub(super) place: usize,
 }
 
 impl PlannedRecord {
@@ -269,6 +297,7 @@ fn planned_mesh(
     if selected.faces.is_empty() {
         return refused_of(entry, "no face is selected, and it needs one at least");
     }
+    check_sources(entry, selected)?;
 
     // Where each face was asked for.
     let mut place_of = vec![u32::MAX; faces.len()];
@@ -306,11 +335,13 @@ fn planned_mesh(
             let Some(SelectedFace { corners, .. }) = chosen(face) else {
                 continue;
             };
+            let sources = selected.corner_sources.get(place_of[face] as usize);
             places.push(place_of[face]);
             records.push(PlannedRecord::Triangle(PlannedTriangle {
                 record,
                 fan,
                 corners: *corners,
+                sources: sources.map(|sources| sources.map(|corner| record_corner(entry, corner))),
             }));
         }
     }
@@ -322,6 +353,45 @@ fn planned_mesh(
         records,
         order: Permutation::from_algorithm(order).into(),
     })
+}
+
+/// Whether each corner source, if there are some, is at the vertex of the corner.
+fn check_sources(entry: &MeshEntry, selected: &SelectedFaces<'_>) -> Result<(), FileErrorKind> {
+    let sources = selected.corner_sources;
+    if !sources.is_empty() && sources.len() != selected.faces.len() {
+        return Err(FileErrorKind::Order(MeshError::LengthMismatch {
+            what: "corner sources",
+            expected: selected.faces.len(),
+            found: sources.len(),
+        }));
+    }
+    let corners = entry.mesh.faces().as_flattened();
+    for (face, sources) in selected.faces.iter().zip(sources) {
+        for (&vertex, &source) in face.corners.iter().zip(sources) {
+            if corners.get(source as usize) != Some(&vertex) {
+                let face = face.face;
+                let text = format!(
+                    "face {face}: corner {source} of the source is not at vertex {vertex}, whose place it is to take"
+                );
+                return refused_of(entry, &text);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A corner of the mesh, three times its face plus 0, 1 or 2, as one of a record.
+fn record_corner(entry: &MeshEntry, corner: u32) -> RecordCorner {
+    let (face, slot) = (corner / 3, corner as usize % 3);
+    let (record, fan) = match &entry.polygons {
+        None => (face as usize, 0),
+        Some(starts) => {
+            let record = starts.partition_point(|&start| start <= face) - 1;
+            (record, (face - starts[record]) as usize)
+        }
+    };
+    let place = if slot == 0 { 0 } else { fan + slot };
+    RecordCorner { record, place }
 }
 
 /// Whether the vertices of a selected face are there.

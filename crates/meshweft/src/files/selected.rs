@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use super::error::{FileErrorKind, Place, Problem};
+use super::options::ReadOptions;
 use super::rewrite::{Change, Notation, Rewrite, StoredMesh};
 use super::select::{LEFT_OUT, PlannedMesh, PlannedRecord, PlannedTriangle, SelectPlan};
 use super::slots::Spans;
@@ -104,6 +105,10 @@ pub(super) trait SelectWriter {
 pub(super) trait SelectNotation: Notation {
     /// Writes the records of a file.
     fn select_writer<'a>(&'a self, source: &'a SelectSource<'a>) -> Box<dyn SelectWriter + 'a>;
+    /// See [`Content::corner_kinds`](super::content::Content::corner_kinds).
+    fn corner_kinds(&self, _source: &SelectSource<'_>, _options: &ReadOptions) -> Vec<u32> {
+        Vec::new()
+    }
 }
 
 /// A file without what was left out, and where its records stand.

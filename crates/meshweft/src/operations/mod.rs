@@ -33,6 +33,8 @@ mod options;
 mod sequence_updates;
 mod shared_progress;
 #[cfg(feature = "files")]
+mod simplify;
+#[cfg(feature = "files")]
 mod vertex_groups;
 
 #[cfg(feature = "files")]
@@ -48,3 +50,8 @@ pub use methods::{Method, grid_orders, linear_arrangement_cost};
 pub use optimize::{CountChange, OptimizeError, OptimizeReport, OptimizedMesh, optimize};
 pub use options::{Greedy, Options, OptionsError};
 pub use sequence_updates::{SequenceUpdate, collapse_history};
+#[cfg(feature = "files")]
+pub use simplify::{
+    AttributeWeights, ErrorLimit, Removals, SimplifiedMesh, SimplifiedObject, SimplifyError,
+    SimplifyOptions, SimplifyOptionsError, SimplifyReport, StopReason, simplify,
+};

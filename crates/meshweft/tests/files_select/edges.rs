@@ -58,10 +58,7 @@ fn what_makes_no_sense_is_refused() {
 
     let mut document = open(PLY.as_bytes(), Format::Ply);
     let faces = [first];
-    let twice = [SelectedFaces {
-        mesh: 0,
-        faces: &faces,
-    }; 2];
+    let twice = [SelectedFaces::new(0, &faces); 2];
     let found = document.edit(Edit::select(&twice, &[])).unwrap_err();
     assert!(
         found.to_string().contains("it is selected twice"),

@@ -56,10 +56,7 @@ pub(crate) fn select(
 ) -> Result<(), FileError> {
     let faces: Vec<SelectedFaces<'_>> = choices
         .iter()
-        .map(|(mesh, choice)| SelectedFaces {
-            mesh: *mesh,
-            faces: &choice.faces,
-        })
+        .map(|(mesh, choice)| SelectedFaces::new(*mesh, &choice.faces))
         .collect();
     let vertices: Vec<SelectedVertices<'_>> = choices
         .iter()

@@ -1,6 +1,6 @@
 //! OBJ: lines leave, statements stay, and corners at seams take what is on their side.
 
-use meshweft::files::{Document, Format, SelectedFace};
+use meshweft::files::{Document, Edit, Format, SelectedFace, SelectedFaces};
 
 use crate::choice::Choice;
 use crate::random::Random;
@@ -240,4 +240,33 @@ fn random_selections() {
     }
     println!("{done} selections done, {refused} refused");
     assert!(done > 4 * refused, "{done} done, {refused} refused");
+}
+
+/// Of which corner a moved one takes texture coordinates can be said, also where seams do not tell.
+#[test]
+fn what_a_moved_corner_takes_can_be_said() {
+    let fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nvt 0 0\nvt 1 0\nvt 2 0\nvt 3 0\n\
+               f 1/1 2/1 3/1\nf 1/2 3/2 4/2\nf 2/3 1/3 4/4\n";
+    let faces = [face(0, [0, 1, 3]), face(1, [0, 2, 3])];
+    let selected = |corner_sources: &[[u32; 3]]| {
+        let mut document = open(fan.as_bytes(), Format::Obj);
+        let faces = SelectedFaces {
+            corner_sources,
+            ..SelectedFaces::new(0, &faces)
+        };
+        let done = document.edit(Edit::select(&[faces], &[]));
+        done.map(|()| text(&document))
+    };
+    let refused = selected(&[]).unwrap_err().to_string();
+    assert!(refused.contains("cannot be told"), "{refused}");
+    let found = selected(&[[0, 1, 8], [3, 4, 5]]).unwrap();
+    assert!(found.ends_with("f 1/1 2/1 4/4\nf 1/2 3/2 4/2\n"), "{found}");
+
+    let refused = selected(&[[0, 1, 7], [3, 4, 5]]).unwrap_err().to_string();
+    assert!(
+        refused.contains("corner 7 of the source is not at vertex 3"),
+        "{refused}"
+    );
+    let refused = selected(&[[0, 1, 8]]).unwrap_err().to_string();
+    assert!(refused.contains("corner sources"), "{refused}");
 }

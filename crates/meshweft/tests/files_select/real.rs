@@ -64,10 +64,9 @@ fn check(path: &Path, random: &mut Random) -> Option<String> {
         .iter()
         .map(|(mesh, _)| document.positions(*mesh).unwrap().unwrap_or_default())
         .collect();
-    let faces = choices.iter().map(|(mesh, choice)| SelectedFaces {
-        mesh: *mesh,
-        faces: &choice.faces,
-    });
+    let faces = choices
+        .iter()
+        .map(|(mesh, choice)| SelectedFaces::new(*mesh, &choice.faces));
     let vertices = used
         .iter()
         .map(|(&vertex_group, vertices)| SelectedVertices {

@@ -7,6 +7,7 @@ use super::byte_users::{ByteUsers, UsedAs};
 use super::groups::{group_numbers, vertex_obstacle};
 use super::movable::{Draws, IndexList, Movable, PrimitiveNumber};
 use super::object::malformed;
+use super::objects::objects;
 use super::obstacles::VertexObstacle;
 use super::patch;
 use super::primitives::Primitives;
@@ -68,6 +69,7 @@ impl Entries {
         entries.groups.resize_with(group_count, Group::default);
         let mut obstacles = GroupObstacles::new(group_count, byte_users, buffers);
         let mut mesh_of = BTreeMap::new();
+        let mut drawn_by: Vec<Vec<u32>> = Vec::new();
 
         for (primitive, &group) in movable.iter().zip(&group_of) {
             if let Some(corners) = corner_records(primitive) {
@@ -79,9 +81,11 @@ impl Entries {
                         let name = primitives.name(primitive.number);
                         entries.add(primitive, name, group, buffers)?;
                         mesh_of.insert(corners, mesh);
+                        drawn_by.push(Vec::new());
                         mesh
                     }
                 };
+                drawn_by[mesh].push(primitive.number.mesh);
 
                 if primitive.draws == Draws::FacesInOrder {
                     entries.meshes[mesh].faces_movable = false;
@@ -103,6 +107,10 @@ impl Entries {
         }
 
         entries.add_vertices(byte_users, &group_of);
+        let objects = objects(primitives, &drawn_by);
+        for (entry, (object, has_other_faces)) in entries.meshes.iter_mut().zip(objects) {
+            (entry.object, entry.has_other_faces) = (object, has_other_faces);
+        }
         for entry in &mut entries.meshes {
             entry.vertices_movable &= obstacles.found[entry.vertex_group].is_none();
         }
@@ -176,6 +184,8 @@ impl Entries {
             mesh,
             polygons: None,
             vertex_group: group,
+            object: 0,
+            has_other_faces: false,
             faces_movable: true,
             vertices_movable: primitive.indices.is_some(),
             corners_turnable: true,

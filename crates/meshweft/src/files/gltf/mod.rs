@@ -71,6 +71,7 @@ mod new_attributes;
 mod new_meshes;
 mod notes;
 mod object;
+mod objects;
 mod obstacles;
 mod output;
 mod patch;

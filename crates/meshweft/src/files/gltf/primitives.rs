@@ -16,6 +16,8 @@ use crate::files::face_records::{check_face_count, check_vertex_count};
 use crate::files::options::ReadOptions;
 
 /// Why a strip or a fan stays.
+const POINTS: &str = "it is drawn as points";
+const LINES: &str = "it is drawn as lines";
 const STRIP: &str = "it is a strip or fan, whose faces depend on those before; strips_to_lists makes a list \
                      of it";
 
@@ -148,6 +150,11 @@ fn each<'a>(
         }
     }
     Ok(())
+}
+
+/// Whether a primitive that stays for this reason may draw faces.
+pub(super) fn may_draw_faces(why: &str) -> bool {
+    why != POINTS && why != LINES
 }
 
 /// Whether each material is blended with what was drawn before.
@@ -318,8 +325,8 @@ impl PrimitiveReader<'_> {
     /// Why its mode keeps it as it is; `None` for a list of triangles.
     fn other_mode(&self) -> Result<Option<&'static str>, Problem> {
         match self.primitive.number("mode")?.unwrap_or(4) {
-            0 => Ok(Some("it is drawn as points")),
-            1..=3 => Ok(Some("it is drawn as lines")),
+            0 => Ok(Some(POINTS)),
+            1..=3 => Ok(Some(LINES)),
             4 => Ok(None),
             5 | 6 => Ok(Some(STRIP)),
             // An extension may bring modes of its own, as EXT_primitive_voxels does.

@@ -45,6 +45,8 @@
 
 mod attributes;
 mod comments;
+mod corners;
+mod kinds;
 mod materials;
 mod notation;
 mod obstacles;
@@ -146,6 +148,8 @@ fn read_file(
             polygons: records.polygons,
             runs: runs.starts,
             vertex_group: 0,
+            object: 0,
+            has_other_faces: false,
             faces_movable,
             vertices_movable,
         });

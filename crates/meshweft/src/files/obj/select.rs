@@ -6,12 +6,15 @@
 
 use std::ops::Range;
 
+use super::corners::{Named, corners, named};
+use super::kinds::corner_kinds;
 use super::notation::ObjNotation;
 use super::statement::Statements;
-use crate::files::corner_sources::{CornerSources, RecordCorner, place_in_record};
+use crate::files::corner_sources::{CornerSources, place_in_record};
 use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::options::ReadOptions;
 use crate::files::rewrite::{Change, Notation, Rewrite};
-use crate::files::select::{LEFT_OUT, PlannedTriangle, face_problem};
+use crate::files::select::{LEFT_OUT, PlannedTriangle, RecordCorner, face_problem};
 use crate::files::selected::{NewCounts, SelectNotation, SelectSource, SelectWriter, StoredCount};
 use crate::files::slots::Spans;
 use crate::files::text::{Tokens, leading_number, line_of, push_number};
@@ -27,6 +30,10 @@ impl SelectNotation for ObjNotation {
             settled: Vec::new(),
         })
     }
+
+    fn corner_kinds(&self, source: &SelectSource<'_>, options: &ReadOptions) -> Vec<u32> {
+        corner_kinds(source, options)
+    }
 }
 
 struct ObjSelect<'a> {
@@ -39,9 +46,6 @@ struct ObjSelect<'a> {
     tokens: Vec<Range<usize>>,
     settled: Vec<u8>,
 }
-
-/// The numbers of the vertex, texture coordinate and normal that a corner names, from 1; 0 for none.
-type Named = [u64; 3];
 
 impl SelectWriter for ObjSelect<'_> {
     fn counts(&self, _counts: NewCounts<'_>) -> Vec<StoredCount> {
@@ -57,14 +61,19 @@ impl SelectWriter for ObjSelect<'_> {
         let stored = &self.source.stored;
         let record = triangle.record as usize;
         let vertices: Vec<u32> = stored.entry.corners_of(record).collect();
-        let mut sources = triangle
-            .places()
-            .map(|place| RecordCorner { record, place });
-        for (corner, source) in sources.iter_mut().enumerate() {
-            *source = match place_in_record(&vertices, triangle, corner) {
-                Some(place) => RecordCorner { record, place },
-                None => self.all_corners().source(triangle, corner)?,
-            };
+        let own = || {
+            triangle
+                .places()
+                .map(|place| RecordCorner { record, place })
+        };
+        let mut sources = triangle.sources.unwrap_or_else(own);
+        if triangle.sources.is_none() {
+            for (corner, source) in sources.iter_mut().enumerate() {
+                *source = match place_in_record(&vertices, triangle, corner) {
+                    Some(place) => RecordCorner { record, place },
+                    None => self.all_corners().source(triangle, corner)?,
+                };
+            }
         }
 
         // The first three corners are these, the others leave.
@@ -231,52 +240,8 @@ fn value_lines(source: &[u8]) -> [Vec<usize>; 2] {
     lines
 }
 
-/// Where the corners of a face, line or point stand.
-fn corners(source: &[u8], span: &Range<usize>) -> Vec<Range<usize>> {
-    let tokens = Tokens::of_statement(&source[..span.end], span.start);
-    tokens.skip(1).collect()
-}
-
 /// What stands behind the vertex of a corner.
 fn glued(token: &[u8]) -> &[u8] {
     let length = leading_number(token).map_or(0, |(_, length)| length);
     &token[length..]
-}
-
-/// What a corner names, where so many lines of each kind stand above it.
-fn named(token: &[u8], above: [usize; 3]) -> Named {
-    let mut named = [0; 3];
-    let mut rest = token;
-    for (named, above) in named.iter_mut().zip(above) {
-        if let Some((number, length)) = leading_number(rest) {
-            let plain = match number {
-                ..0 => (above as u64 + 1).checked_sub(number.unsigned_abs()),
-                _ => u64::try_from(number).ok(),
-            };
-            *named = plain.unwrap_or(0);
-            rest = &rest[length..];
-        }
-        // Past the `/`.
-        rest = rest.get(1..).unwrap_or_default();
-    }
-    named
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_corner_names_three_lines() {
-        let above = [7, 5, 3];
-        for (token, expected) in [
-            ("1", [1, 0, 0]),
-            ("2/3", [2, 3, 0]),
-            ("2//4", [2, 0, 4]),
-            ("-1/-5/-3", [7, 1, 1]),
-            ("-9/2/", [0, 2, 0]),
-        ] {
-            assert_eq!(named(token.as_bytes(), above), expected, "{token}");
-        }
-    }
 }

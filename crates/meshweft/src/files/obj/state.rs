@@ -115,6 +115,16 @@ impl<'a> FaceState<'a> {
         Some(&self.source[text])
     }
 
+    /// All that holds here, as a value: the same for the same.
+    pub(super) fn value(&self) -> Vec<(Option<&'a [u8]>, usize)> {
+        let settings = self.now.iter();
+        let value = settings.map(|setting| {
+            let text = setting.text.clone().map(|text| &self.source[text]);
+            (text, setting.libraries)
+        });
+        value.collect()
+    }
+
     fn is_same(&self, a: &Setting, b: &Setting) -> bool {
         let text = |setting: &Setting| setting.text.clone().map(|text| &self.source[text]);
         a == b || (a.libraries == b.libraries && text(a) == text(b))

@@ -96,6 +96,8 @@ fn read_file(bytes: Vec<u8>, options: &ReadOptions) -> Result<RecordRead<OffNota
                 false => vec![0],
             },
             vertex_group: 0,
+            object: 0,
+            has_other_faces: false,
             faces_movable: !stays,
             vertices_movable: !stays,
             corners_turnable: !stays && records.polygons.is_none(),

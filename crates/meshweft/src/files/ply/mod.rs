@@ -159,6 +159,8 @@ fn finish(
                 false => (0..index32(record_count)).collect(),
             },
             vertex_group: 0,
+            object: 0,
+            has_other_faces: header.element("tristrips").is_some(),
             faces_movable: true,
             vertices_movable: plan.vertex_obstacle.is_none(),
         });

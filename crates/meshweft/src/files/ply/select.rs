@@ -3,15 +3,17 @@
 //! A list of a face row with as many entries as corners, or a multiple of that, holds something for each
 //! corner, and so do the lists of rows that go with the faces. What a list holds for a corner follows it.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use super::header::{Element, Encoding, PropertyKind};
 use super::notation::PlyNotation;
 use super::rows::{Binary, PlyRows, Row};
 use crate::attribute::ComponentType;
-use crate::files::corner_sources::{CornerSources, RecordCorner, place_in_record};
+use crate::files::corner_sources::{CornerSources, place_in_record};
 use crate::files::error::Problem;
-use crate::files::select::{PlannedTriangle, face_problem};
+use crate::files::options::ReadOptions;
+use crate::files::select::{PlannedTriangle, RecordCorner, face_problem};
 use crate::files::selected::{NewCounts, SelectNotation, SelectSource, SelectWriter, StoredCount};
 use crate::files::slots::Spans;
 use crate::files::text::{Tokens, is_line_end, push_number, whole_number};
@@ -24,6 +26,26 @@ impl SelectNotation for PlyNotation {
             source,
             corners: None,
             tokens: Vec::new(),
+        })
+    }
+
+    fn corner_kinds(&self, source: &SelectSource<'_>, _options: &ReadOptions) -> Vec<u32> {
+        if !self.has_lists() {
+            return Vec::new();
+        }
+        let writer = PlySelect {
+            notation: self,
+            source,
+            corners: None,
+            tokens: Vec::new(),
+        };
+        let mut numbers: HashMap<Vec<u8>, u32> = HashMap::new();
+        source.stored.entry.of_face_corners(|record| {
+            let number = |held| {
+                let next = index32(numbers.len());
+                *numbers.entry(held).or_insert(next)
+            };
+            writer.held(record).into_iter().map(number).collect()
         })
     }
 }
@@ -134,6 +156,9 @@ impl PlySelect<'_> {
             .map(|place| RecordCorner { record, place });
         if !self.notation.has_lists() {
             return Ok(own);
+        }
+        if let Some(sources) = triangle.sources {
+            return Ok(sources);
         }
         let mut sources = own;
         for (corner, source) in sources.iter_mut().enumerate() {

@@ -119,6 +119,8 @@ fn file<N>(
             polygons: None,
             runs: facets.runs,
             vertex_group: 0,
+            object: 0,
+            has_other_faces: false,
             faces_movable: true,
             vertices_movable: false,
             corners_turnable: true,

@@ -158,6 +158,8 @@ impl Binder<'_> {
             polygons: corners.records.polygons,
             runs,
             vertex_group: 0,
+            object: 0,
+            has_other_faces: false,
             faces_movable: !self.is_transparent(set),
             vertices_movable: vertices_stay.is_none(),
         };

@@ -84,7 +84,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
                 if !entry.faces_movable {
                     said.add(at, Stays::Order);
                 }
-                entry.vertex_group = entries.len();
+                (entry.vertex_group, entry.object) = (entries.len(), entries.len());
                 entries.push(entry);
                 sets.push(Set {
                     span: set.span.clone(),
