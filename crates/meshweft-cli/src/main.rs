@@ -1,4 +1,4 @@
-//! The program `meshweft`: optimise, inspect and compare the face order of mesh files.
+//! The program `meshweft`: optimise, simplify, inspect and compare mesh files.
 #![forbid(unsafe_code)]
 
 mod caches;
@@ -10,6 +10,7 @@ mod optimize;
 mod paper;
 mod plot;
 mod run;
+mod simplify;
 mod usage;
 
 use std::process::ExitCode;
@@ -22,6 +23,7 @@ use inspect::Inspect;
 use optimize::Optimize;
 use paper::Paper;
 use run::output::is_broken_pipe;
+use simplify::Simplify;
 use usage::Usage;
 
 /// Puts the triangles of a mesh in the order in which a GPU transforms each vertex about once.
@@ -45,6 +47,18 @@ enum Verb {
     ///   meshweft optimize assets -o ordered --jobs 8 --keep-going --manifest done.jsonl
     #[command(verbatim_doc_comment)]
     Optimize(Optimize),
+    /// Take faces away and keep what every vertex stores
+    ///
+    /// Vertices leave one after the other, the least noticeable first; none is moved, and none is invented.
+    /// So texture coordinates, skins and morph targets stay as they are. The primitives of a glTF mesh keep
+    /// meeting where they meet, and so do the sides of seams. What is left is ordered as by optimize.
+    /// Give --ratio, --faces or --error; of several, it stops at whichever comes first.
+    ///
+    ///   meshweft simplify scan.ply --ratio .1 -o coarse.ply
+    ///   meshweft simplify scene.glb --error .5% --in-place
+    ///   meshweft simplify assets --faces 5000 --effort best -o coarse --keep-going --json
+    #[command(verbatim_doc_comment)]
+    Simplify(Simplify),
     /// Count cache misses of files as they are
     ///
     ///   meshweft inspect scene.glb --cache fifo:12 --cache nvidia --json
@@ -71,6 +85,7 @@ enum Verb {
 fn main() -> ExitCode {
     let done = match &Arguments::parse().verb {
         Verb::Optimize(arguments) => optimize::run(arguments),
+        Verb::Simplify(arguments) => simplify::run(arguments),
         Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Compare(arguments) => compare::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),

@@ -25,7 +25,7 @@ pub(crate) struct Run {
     #[arg(long)]
     pub(crate) dry_run: bool,
     // The flags above are listed before a verb's own, those below after them.
-    /// Replace files that are read-only, and one that another program wrote by --write-permutation
+    /// Replace files that are read-only, and one that another program wrote by --write-permutation or --write-levels
     #[arg(long, display_order = 99)]
     pub(crate) force: bool,
     /// Leave images, materials and other files that a mesh file names where they are

@@ -19,7 +19,7 @@ pub(crate) struct Ordering {
     /// device has is bad, one made for a smaller cache loses little.
     #[arg(long, value_name = "MODEL", default_value = "universal")]
     cache: Target,
-    /// How much time the order is worth
+    /// How much time the result is worth
     #[arg(long, value_enum, default_value = "fast")]
     effort: Effort,
     /// Search for about this long per file, such as 5s, 500ms or 2m, whatever the effort

@@ -26,6 +26,15 @@ pub(crate) const PERMUTATION: SideFile = SideFile {
     },
 };
 
+/// What `--write-levels` writes.
+pub(crate) const LEVELS: SideFile = SideFile {
+    flag: "--write-levels",
+    is_own: |start| {
+        let text = String::from_utf8_lossy(start);
+        text.starts_with("{\"schema\":") && text.contains("fine_to_coarse[v] stands for v")
+    },
+};
+
 /// What `--plot` writes.
 pub(crate) const PLOT: SideFile = SideFile {
     flag: "--plot",

@@ -8,6 +8,7 @@ mod disk;
 mod many;
 mod nothing_lost;
 mod papers;
+mod simplify;
 
 use std::fs;
 use std::path::{Path, PathBuf};

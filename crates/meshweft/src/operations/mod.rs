@@ -2,8 +2,8 @@
 //! its report.
 //!
 //! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
-//! document and keeps every other byte, `inspect` counts it as it is, and `compare` tells
-//! whether two documents hold the same triangles; their reports are values that know their JSON.
+//! document and keeps every other byte, `simplify` takes faces away from it, `inspect` counts it as it is, and
+//! `compare` tells whether two documents hold the same triangles; their reports are values that know their JSON.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
 //! along a history such as [`collapse_history`] makes.
 //!

@@ -1,0 +1,312 @@
+//! `simplify`: fewer faces.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use clap::Args;
+use meshweft::CacheModel;
+use meshweft::files::Document;
+use meshweft::operations::{
+    self, AttributeWeights, ErrorLimit, SimplifiedObject, SimplifyOptions, SimplifyReport,
+    StopReason,
+};
+
+use crate::run::arguments::{Reading, Run};
+use crate::run::jobs::{Job, Jobs, names_of};
+use crate::run::ordering::Ordering;
+use crate::run::output::Report;
+use crate::run::side_file::{LEVELS, MANIFEST, PendingFile};
+use crate::run::watch::Watch;
+use crate::run::{self, Outcome, output, write};
+use crate::usage::Usage;
+
+#[derive(Debug, Args)]
+pub(crate) struct Simplify {
+    /// Files, folders with files, or patterns such as 'assets/**/*.glb'
+    ///
+    /// .gltf, .glb, .vrm, .obj, .ply, .off or .stl, optionally followed by .gz.
+    #[arg(required = true, value_name = "IN")]
+    inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    run: Run,
+    /// Share of the faces to keep, from 0 to 1, of each object of a file
+    #[arg(long, value_name = "R", display_order = 1)]
+    ratio: Option<f64>,
+    /// Faces to keep in a file; each of its objects keeps a share in proportion
+    #[arg(long, value_name = "N", display_order = 1)]
+    faces: Option<usize>,
+    /// Largest error of a removal: in units of the positions, or 1% of the bounding box's diagonal
+    ///
+    /// It is an estimate; the report has the error as measured.
+    #[arg(long, value_name = "E", display_order = 1)]
+    error: Option<Error>,
+    /// Keep the vertices at open edges, so that meshes that meet there keep meeting
+    #[arg(long, display_order = 2)]
+    lock_border: bool,
+    /// Let small parts leave as a whole, once none of their vertices can
+    #[arg(long, display_order = 2)]
+    drop_parts: bool,
+    /// What a change of a normal by 1 counts, as hundredths of the bounding box's diagonal
+    #[arg(long, value_name = "W", display_order = 3, default_value_t = AttributeWeights::default().normal)]
+    normal_weight: f32,
+    /// What a change of a texture coordinate by 1 counts, likewise
+    #[arg(long, value_name = "W", display_order = 3, default_value_t = AttributeWeights::default().tex_coord)]
+    uv_weight: f32,
+    /// What a change of a colour by 1 counts, likewise
+    #[arg(long, value_name = "W", display_order = 3, default_value_t = AttributeWeights::default().color)]
+    color_weight: f32,
+    /// Points of either surface from which the error of the result is measured; 0 leaves that out
+    #[arg(long, value_name = "N", display_order = 4, default_value_t = SimplifyOptions::default().samples)]
+    samples: usize,
+    /// Write the order in which vertices leave, down to the coarsest mesh, and what stands for each, as JSON
+    #[arg(long, value_name = "FILE", display_order = 4)]
+    write_levels: Option<PathBuf>,
+    #[command(flatten)]
+    ordering: Ordering,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    report: Report,
+}
+
+/// An error such as `0.01` or `1%`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Error(ErrorLimit);
+
+impl FromStr for Error {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = |text: &str| {
+            let number: Result<f64, _> = text.trim().parse();
+            number.map_err(|_| {
+                "a length such as 0.01, or a share of the diagonal such as 1%".to_owned()
+            })
+        };
+        Ok(Self(match text.strip_suffix('%') {
+            Some(percent) => ErrorLimit::Diagonal(number(percent)? / 100.0),
+            None => ErrorLimit::Units(number(text)?),
+        }))
+    }
+}
+
+impl Simplify {
+    /// The flags for the library, checked.
+    fn options(&self) -> Result<SimplifyOptions, Usage> {
+        let options = SimplifyOptions {
+            ratio: self.ratio,
+            faces: self.faces,
+            error: self.error.map(|error| error.0),
+            lock_border: self.lock_border,
+            drop_parts: self.drop_parts,
+            weights: AttributeWeights {
+                normal: self.normal_weight,
+                tex_coord: self.uv_weight,
+                color: self.color_weight,
+            },
+            samples: self.samples,
+            with_removals: self.write_levels.is_some(),
+            ordering: self.ordering.options()?,
+        };
+        let is_limited =
+            options.ratio.is_some() || options.faces.is_some() || options.error.is_some();
+        if !is_limited {
+            return Err(Usage("how far? Give --ratio, --faces or --error".into()));
+        }
+        let checked = options.check();
+        checked.map_err(|error| Usage(error.to_string()))?;
+        Ok(options)
+    }
+}
+
+/// Simplifies each file.
+pub(crate) fn run(arguments: &Simplify) -> Result<()> {
+    // What cannot be done is reported before a file is touched.
+    let options = arguments.options()?;
+    let jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
+    if let Some(path) = &arguments.write_levels {
+        if !jobs.is_one_file {
+            return Err(Usage("--write-levels takes one file at a time".into()).into());
+        }
+        LEVELS.check_no_mesh(path, names_of(&jobs.list))?;
+        if let Some(list) = &arguments.run.manifest {
+            LEVELS.check_other(path, list, MANIFEST.flag)?;
+        }
+        LEVELS.check(path, arguments.run.force)?;
+    }
+    let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
+    let work = |job: &Job| simplify(job, &jobs, &options, shows_bar, arguments);
+    run::over_files(
+        "simplify",
+        &jobs.list,
+        &arguments.run,
+        &arguments.report,
+        work,
+    )
+}
+
+/// Simplifies the meshes of a file, and writes it.
+fn simplify(
+    job: &Job,
+    jobs: &Jobs,
+    options: &SimplifyOptions,
+    shows_bar: bool,
+    arguments: &Simplify,
+) -> Result<Outcome> {
+    let start = Instant::now();
+    let mut document = Document::open(&job.input, arguments.reading.options(&jobs.shared_buffers))?;
+
+    let watch = Watch::new(arguments.ordering.time(), shows_bar);
+    let mut report = operations::simplify(&mut document, options, &watch)?;
+    watch.finish();
+
+    // On the disk before the mesh is, and named after it.
+    let levels = arguments.write_levels.as_ref();
+    let levels = levels.filter(|_| !arguments.run.dry_run).map(|file| {
+        let pending = PendingFile::new(file, report.removals_to_json());
+        pending.with_context(|| file.display().to_string())
+    });
+    let levels = levels.transpose()?;
+
+    let mut renamed = Vec::new();
+    if arguments.run.writes(report.is_changed()) {
+        let written = write::write(job, &document, &arguments.run, &jobs.outputs)?;
+        report.set_output(&job.target, written.bytes);
+        report.add_written(&written);
+        renamed = write::renamed_lines(job, &written);
+    }
+    if let (Some(pending), Some(file)) = (levels, &arguments.write_levels) {
+        // A buffer that was just written may have that name.
+        LEVELS.check(file, arguments.run.force)?;
+        let written = pending.commit();
+        written.with_context(|| file.display().to_string())?;
+    }
+    report.seconds = Some(start.elapsed().as_secs_f64());
+
+    Ok(Outcome {
+        json: report.to_json(),
+        total: report.total_to_json(),
+        text: text(&report),
+        notes: [output::note_lines(&report.file, &report.notes), renamed].concat(),
+    })
+}
+
+/// A line for the file, one for its error, one for its caches, one for what stopped it, one for where it was
+/// written.
+fn text(report: &SimplifyReport) -> String {
+    let (before, after) = (&report.total.before, &report.total.after);
+    let mut text = format!(
+        "{}\n  {} -> {} faces, {} -> {} vertices",
+        report.file.display(),
+        before.faces,
+        after.faces,
+        before.vertices,
+        after.vertices,
+    );
+
+    if let Some(line) = error_line(report) {
+        text += &format!("\n  {line}");
+    }
+    let target = report.options.ordering.target;
+    let is_shown = |model: &CacheModel| !model.is_gpu() && target.models().contains(model);
+    let caches = before.acmr().zip(after.acmr());
+    let caches = caches.filter(|((model, _), _)| is_shown(model));
+    let caches = caches.map(|((model, a), (_, b))| format!("{model} {a:.4} -> {b:.4}"));
+    let caches: Vec<_> = caches.collect();
+    if !caches.is_empty() {
+        text += &format!("\n  misses per face: {}", caches.join(", "));
+    }
+    for line in stop_lines(report) {
+        text += &format!("\n  {line}");
+    }
+
+    text += &match (report.is_changed(), &report.output) {
+        (true, Some(output)) => format!("\n  written to {}", output.display()),
+        (false, Some(output)) => format!("\n  nothing left: copied to {}", output.display()),
+        (true, None) => "\n  not written: dry run".to_owned(),
+        (false, None) => "\n  nothing left: the file stays as it is".to_owned(),
+    };
+    if report.copied > 0 {
+        let s = if report.copied == 1 { "" } else { "s" };
+        text += &format!("\n  copied {} file{s} that it names", report.copied);
+    }
+    text
+}
+
+/// The object that is farthest from its source, as a share of its diagonal.
+fn error_line(report: &SimplifyReport) -> Option<String> {
+    let measured = report.objects.iter().filter_map(|object| {
+        let distances = object.distances?;
+        Some((object, distances, object.of_diagonal(distances.max)))
+    });
+    let (object, distances, _) = measured.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let figures = [distances.max, distances.mean, distances.rms];
+    let [max, mean, rms] = figures.map(|length| {
+        let percent = 100.0 * object.of_diagonal(length);
+        format!("{length:.4e} ({percent:.4} %)")
+    });
+    let of = match report.objects.len() {
+        1 => String::new(),
+        _ => format!(", largest of all objects: {}", name(report, object)),
+    };
+    Some(format!(
+        "error (of the diagonal): greatest {max}, mean {mean}, root mean square {rms}{of}"
+    ))
+}
+
+/// Why objects have more faces than asked for, each reason once.
+fn stop_lines(report: &SimplifyReport) -> Vec<String> {
+    let mut lines = Vec::new();
+    for reason in [StopReason::Error, StopReason::NothingLeft] {
+        let stopped = report.objects.iter().filter(|object| {
+            object.refused.is_none() && object.stop == reason && object.faces[1] > object.goal
+        });
+        let stopped: Vec<&SimplifiedObject> = stopped.collect();
+        let Some(object) = stopped
+            .iter()
+            .max_by_key(|object| object.faces[1] - object.goal)
+        else {
+            continue;
+        };
+        let percent = 100.0 * object.faces[1] as f64 / object.faces[0].max(1) as f64;
+        let why = match reason {
+            StopReason::Error => "the next vertices would have a larger error",
+            _ => "no other vertex can go (seams, borders, topology)",
+        };
+        let more = match stopped.len() {
+            1 => String::new(),
+            count => format!(", and so in {} other objects", count - 1),
+        };
+        lines.push(format!(
+            "stopped: {percent:.1} % of the faces of {} are left: {why}{more}",
+            name(report, object)
+        ));
+    }
+    if report.is_stopped {
+        lines.push("stopped before it was done".to_owned());
+    }
+    lines
+}
+
+/// The name of the first mesh of an object.
+fn name<'a>(report: &'a SimplifyReport, object: &SimplifiedObject) -> &'a str {
+    let first = object.meshes.first();
+    first.map_or("", |&mesh| &report.meshes[mesh].name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_lengths_or_percents() {
+        let error = |text: &str| text.parse::<Error>().map(|error| error.0);
+        assert_eq!(error("0.25"), Ok(ErrorLimit::Units(0.25)));
+        assert_eq!(error(".5%"), Ok(ErrorLimit::Diagonal(0.005)));
+        for bad in ["", "%", "1 mm", "a%"] {
+            assert!(error(bad).is_err(), "{bad}");
+        }
+    }
+}
