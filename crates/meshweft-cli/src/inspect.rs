@@ -12,7 +12,7 @@ use meshweft::{CacheModel, Mesh};
 
 use crate::caches::Caches;
 use crate::columns::columns;
-use crate::plot::{self, Curve};
+use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::Size;
 use crate::run::inputs;
 use crate::run::output::{self, Report};
@@ -68,7 +68,8 @@ pub(crate) fn run(arguments: &Inspect) -> Result<()> {
 }
 
 fn write_plot(path: &Path, curves: &[Curve]) -> Result<()> {
-    let svg = plot::svg("Misses per face over the cache size", curves);
+    let axes = [Axis::of_cache_sizes(), Axis::of_misses(curves)];
+    let svg = plot::svg("Misses per face over the cache size", &axes, curves);
     fs::write(path, svg).with_context(|| path.display().to_string())
 }
 
@@ -77,14 +78,20 @@ fn curves(document: &Document, with_methods: bool) -> Vec<Curve> {
     let file = document.path().file_name().unwrap_or_default();
     let file = file.to_string_lossy().into_owned();
     let meshes = || document.meshes().iter().map(|entry| &entry.mesh);
-    let mut curves = vec![Curve::new(file.clone(), meshes().map(Mesh::faces))];
+    let mut curves = vec![Curve::of_cache_sizes(
+        file.clone(),
+        meshes().map(Mesh::faces),
+    )];
     if with_methods {
         for method in Method::SHOWN {
             let orders: Vec<_> = meshes()
                 .map(|mesh| method.order(mesh).apply(mesh.faces()))
                 .collect();
             let name = format!("{file}, {method}");
-            curves.push(Curve::new(name, orders.iter().map(Vec::as_slice)));
+            curves.push(Curve::of_cache_sizes(
+                name,
+                orders.iter().map(Vec::as_slice),
+            ));
         }
     }
     curves

@@ -1,5 +1,6 @@
 //! `simplify`: fewer faces.
 
+use std::fs;
 use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Instant;
@@ -9,15 +10,16 @@ use clap::Args;
 use meshweft::CacheModel;
 use meshweft::files::Document;
 use meshweft::operations::{
-    self, AttributeWeights, ErrorLimit, SimplifiedObject, SimplifyOptions, SimplifyReport,
-    StopReason,
+    self, AttributeWeights, ErrorLimit, LEVEL_CACHES, LevelFigures, SimplifiedObject,
+    SimplifyOptions, SimplifyReport, StopReason,
 };
 
+use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::{Reading, Run};
 use crate::run::jobs::{Job, Jobs, names_of};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
-use crate::run::side_file::{LEVELS, MANIFEST, PendingFile};
+use crate::run::side_file::{LEVELS, MANIFEST, PLOT, PendingFile, SideFile};
 use crate::run::watch::Watch;
 use crate::run::{self, Outcome, output, write};
 use crate::usage::Usage;
@@ -63,6 +65,11 @@ pub(crate) struct Simplify {
     /// Write the order in which vertices leave, down to the coarsest mesh, and what stands for each, as JSON
     #[arg(long, value_name = "FILE", display_order = 4)]
     write_levels: Option<PathBuf>,
+    /// Draw the error, and the misses per face of levels edited in place and ordered afresh, over the faces
+    ///
+    /// Of the object with most faces, down to its coarsest mesh.
+    #[arg(long, value_name = "FILE.svg", display_order = 4)]
+    plot: Option<PathBuf>,
     #[command(flatten)]
     ordering: Ordering,
     #[command(flatten)]
@@ -92,7 +99,16 @@ impl FromStr for Error {
     }
 }
 
+/// Levels of a plot.
+const PLOTTED_LEVELS: usize = 48;
+
 impl Simplify {
+    /// The files that it writes beside the meshes.
+    fn side_files(&self) -> impl Iterator<Item = (&PathBuf, &'static SideFile)> {
+        let levels = self.write_levels.iter().map(|path| (path, &LEVELS));
+        levels.chain(self.plot.iter().map(|path| (path, &PLOT)))
+    }
+
     /// The flags for the library, checked.
     fn options(&self) -> Result<SimplifyOptions, Usage> {
         let options = SimplifyOptions {
@@ -108,6 +124,11 @@ impl Simplify {
             },
             samples: self.samples,
             with_removals: self.write_levels.is_some(),
+            levels: if self.plot.is_some() {
+                PLOTTED_LEVELS
+            } else {
+                0
+            },
             ordering: self.ordering.options()?,
         };
         let is_limited =
@@ -126,15 +147,19 @@ pub(crate) fn run(arguments: &Simplify) -> Result<()> {
     // What cannot be done is reported before a file is touched.
     let options = arguments.options()?;
     let jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
-    if let Some(path) = &arguments.write_levels {
+    for (path, side_file) in arguments.side_files() {
         if !jobs.is_one_file {
-            return Err(Usage("--write-levels takes one file at a time".into()).into());
+            let flag = side_file.flag;
+            return Err(Usage(format!("{flag} takes one file at a time")).into());
         }
-        LEVELS.check_no_mesh(path, names_of(&jobs.list))?;
+        side_file.check_no_mesh(path, names_of(&jobs.list))?;
         if let Some(list) = &arguments.run.manifest {
-            LEVELS.check_other(path, list, MANIFEST.flag)?;
+            side_file.check_other(path, list, MANIFEST.flag)?;
         }
-        LEVELS.check(path, arguments.run.force)?;
+        side_file.check(path, arguments.run.force)?;
+    }
+    if let (Some(plot), Some(levels)) = (&arguments.plot, &arguments.write_levels) {
+        PLOT.check_other(plot, levels, LEVELS.flag)?;
     }
     let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
     let work = |job: &Job| simplify(job, &jobs, &options, shows_bar, arguments);
@@ -183,6 +208,10 @@ fn simplify(
         let written = pending.commit();
         written.with_context(|| file.display().to_string())?;
     }
+    if let Some(file) = arguments.plot.as_ref().filter(|_| !arguments.run.dry_run) {
+        PLOT.check(file, arguments.run.force)?;
+        fs::write(file, plot(&report)).with_context(|| file.display().to_string())?;
+    }
     report.seconds = Some(start.elapsed().as_secs_f64());
 
     Ok(Outcome {
@@ -191,6 +220,40 @@ fn simplify(
         text: text(&report),
         notes: [output::note_lines(&report.file, &report.notes), renamed].concat(),
     })
+}
+
+/// The error, and the misses of levels, of the object with most faces.
+fn plot(report: &SimplifyReport) -> String {
+    let largest = report.objects.iter().max_by_key(|object| object.faces[0]);
+    let levels = largest.map_or(&[][..], |object| &object.levels);
+    let curve = |name: String, figure: &dyn Fn(&LevelFigures) -> f64| {
+        let points = levels.iter().rev();
+        let point = |level: &LevelFigures| [level.faces as f64, figure(level)];
+        Curve::new(name, points.map(point).collect())
+    };
+    let percent = |level: &LevelFigures| {
+        100.0 * largest.map_or(0.0, |object| object.of_diagonal(level.error.into()))
+    };
+    // The full mesh has none, which is nowhere on a scale of decades.
+    let mut error = curve("estimated error".into(), &percent);
+    error.leave_out_zeros();
+    let errors = [error];
+    let mut misses = Vec::new();
+    for (which, size) in LEVEL_CACHES.into_iter().enumerate() {
+        let name = |how: &str| format!("fifo:{size}, {how}");
+        misses.push(curve(name("edited in place"), &|level| level.edited[which]));
+        misses.push(curve(name("ordered afresh"), &|level| level.fresh[which]));
+    }
+    let faces = |curves| Axis::of_decades("faces", curves, 0);
+    let error_axis = Axis::of_decades("error in % of the diagonal", &errors, 1);
+    plot::stacked(
+        &plot::svg("Error over faces", &[faces(&misses), error_axis], &errors),
+        &plot::svg(
+            "Misses per face over faces",
+            &[faces(&misses), Axis::of_misses(&misses)],
+            &misses,
+        ),
+    )
 }
 
 /// A line for the file, one for its error, one for its caches, one for what stopped it, one for where it was

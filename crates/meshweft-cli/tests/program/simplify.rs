@@ -284,6 +284,23 @@ fn levels_are_written_beside_and_replace_nothing_of_others() {
         assert_eq!(removals[column].as_array().unwrap().len(), rows);
     }
 
+    let plot = [
+        "simplify",
+        "grid.off",
+        "--ratio",
+        ".5",
+        "-o",
+        "half.off",
+        "--plot",
+        "levels.svg",
+    ];
+    let run = folder.run(&plot);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    let picture = String::from_utf8(folder.read("levels.svg")).unwrap();
+    assert_eq!(picture.matches("<polyline").count(), 5);
+    assert!(picture.contains("fifo:12, edited in place") && !picture.contains("NaN"));
+    assert_eq!(folder.run(&plot).code(), 0, "its own file is replaced");
+
     let run = folder.run(&[
         "simplify",
         "*.off",

@@ -52,6 +52,7 @@ pub use options::{Greedy, Options, OptionsError};
 pub use sequence_updates::{SequenceUpdate, collapse_history};
 #[cfg(feature = "files")]
 pub use simplify::{
-    AttributeWeights, ErrorLimit, Removals, SimplifiedMesh, SimplifiedObject, SimplifyError,
-    SimplifyOptions, SimplifyOptionsError, SimplifyReport, StopReason, simplify,
+    AttributeWeights, ErrorLimit, LEVEL_CACHES, LevelFigures, Removals, SimplifiedMesh,
+    SimplifiedObject, SimplifyError, SimplifyOptions, SimplifyOptionsError, SimplifyReport,
+    StopReason, simplify,
 };

@@ -156,6 +156,7 @@ fn removals_do_not_change_the_result() {
     let (plain, _) = simplified(&bytes, Format::Glb, &ratio(0.4));
     let options = SimplifyOptions {
         with_removals: true,
+        levels: 9,
         ..ratio(0.4)
     };
     let (with_removals, report) = simplified(&bytes, Format::Glb, &options);
@@ -164,6 +165,14 @@ fn removals_do_not_change_the_result() {
         with_removals.to_main_bytes().unwrap()
     );
     let removals = report.objects[0].removals.as_ref().unwrap();
+    let levels = &report.objects[0].levels;
+    assert!(levels.len() > 5 && levels.len() <= 9, "{levels:?}");
+    assert_eq!(levels[0].faces, 240);
+    assert_eq!(levels[0].error, 0.0);
+    assert!(levels.is_sorted_by(|a, b| a.faces > b.faces && a.error <= b.error));
+    for level in levels {
+        assert!((0.5..=3.0).contains(&level.edited[1]) && level.fresh[1] <= level.edited[1] * 1.05);
+    }
     assert!(removals.faces.is_sorted_by(|a, b| a >= b) && removals.error.is_sorted());
     assert!((*removals.faces.last().unwrap() as usize) < report.objects[0].faces[1]);
     let json: serde_json::Value = serde_json::from_str(&report.removals_to_json()).unwrap();

@@ -4,6 +4,7 @@
 //! what is left of it.
 
 mod gathered;
+mod levels;
 mod objects;
 mod options;
 mod reduced;
@@ -21,6 +22,7 @@ use crate::files::{Document, FileError, Note, Place};
 use crate::parallel;
 use crate::progress::Progress;
 pub use crate::progressive::{AttributeWeights, StopReason};
+pub use levels::{LEVEL_CACHES, LevelFigures};
 use objects::{Applied, apply, objects};
 pub use options::{ErrorLimit, SimplifyOptions, SimplifyOptionsError};
 use reduced::{Goal, Reduced};

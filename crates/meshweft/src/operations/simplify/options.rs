@@ -30,6 +30,9 @@ pub struct SimplifyOptions {
     /// Whether the report has the order in which vertices leave, down to the coarsest mesh. The result is the
     /// same, but takes as long as that mesh.
     pub with_removals: bool,
+    /// Of how many levels, from the full mesh to the coarsest, the report has the figures; 0 for none. As
+    /// [`with_removals`](Self::with_removals), this takes as long as the coarsest mesh.
+    pub levels: usize,
     /// How the result is ordered. The effort is also that of the removals.
     pub ordering: Options,
 }
@@ -46,6 +49,7 @@ impl Default for SimplifyOptions {
             weights: AttributeWeights::default(),
             samples: 50_000,
             with_removals: false,
+            levels: 0,
             ordering: Options::default(),
         }
     }

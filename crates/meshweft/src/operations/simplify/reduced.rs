@@ -1,6 +1,7 @@
 //! An object with fewer faces: which faces and vertices of its meshes stay.
 
 use super::gathered::{GatheredMesh, MeshFace};
+use super::levels::{LevelFigures, figures};
 use super::options::SimplifyOptions;
 use super::removals::Removals;
 use crate::files::{Document, MeshEntry, SelectedFace};
@@ -23,6 +24,7 @@ pub(super) struct Reduced {
     /// The diagonal of the bounding box.
     pub(super) diagonal: f64,
     pub(super) removals: Option<Removals>,
+    pub(super) levels: Vec<LevelFigures>,
 }
 
 /// What is to be left of a mesh.
@@ -74,7 +76,7 @@ impl Reduced {
             effort: options.ordering.effort,
             lock_border: options.lock_border || has_other_faces,
             drop_parts: options.drop_parts,
-            faces: match options.with_removals {
+            faces: match options.with_removals || options.levels > 0 {
                 true => 0,
                 false => goal.faces,
             },
@@ -106,6 +108,10 @@ impl Reduced {
             removals: options
                 .with_removals
                 .then(|| Removals::new(&progressive, &gathered)),
+            levels: match options.levels {
+                0 => Vec::new(),
+                count => figures(&progressive, count),
+            },
         };
         if level == 0 {
             return Ok(reduced);

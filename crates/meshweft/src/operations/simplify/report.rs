@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::levels::LevelFigures;
 use super::options::{SimplifyOptions, SimplifyOptionsError};
 use super::reduced::Reduced;
 use super::removals::Removals;
@@ -104,6 +105,8 @@ pub struct SimplifiedObject {
     pub diagonal: f64,
     /// In which order vertices leave, if that was asked for.
     pub removals: Option<Removals>,
+    /// Figures of some levels, fine to coarse, if these were asked for.
+    pub levels: Vec<LevelFigures>,
 }
 
 impl SimplifiedObject {
@@ -178,6 +181,7 @@ pub(super) fn report(parts: ReportParts<'_>) -> SimplifyReport {
             distances: None,
             diagonal: 0.0,
             removals: None,
+            levels: Vec::new(),
         };
         match outcome {
             Err(why) => object.refused = Some(why),
@@ -188,6 +192,7 @@ pub(super) fn report(parts: ReportParts<'_>) -> SimplifyReport {
                 object.distances = reduced.distances;
                 object.diagonal = reduced.diagonal;
                 object.removals = reduced.removals;
+                object.levels = reduced.levels;
                 for mesh in reduced.meshes {
                     meshes[mesh.mesh].fine_to_coarse = mesh.fine_to_coarse;
                 }
