@@ -29,6 +29,7 @@ pub(crate) const PERMUTATION: SideFile = SideFile {
 /// What `--write-levels` writes.
 pub(crate) const LEVELS: SideFile = SideFile {
     flag: "--write-levels",
+    other: "another name",
     is_own: |start| {
         let text = String::from_utf8_lossy(start);
         text.starts_with("{\"schema\":") && text.contains("fine_to_coarse[v] stands for v")

@@ -14,7 +14,7 @@ use super::found::ordered;
 use super::steps::{jumps, small_mesh, steps};
 use crate::paper::figure::{Figure, head};
 use crate::paper::irregular::Irregular;
-use crate::plot::{self, Curve};
+use crate::plot::{self, Axis, Curve};
 use crate::run::side_file::{PICTURE, PICTURE_NAME};
 
 /// What makes a picture; its text names itself by the second argument.
@@ -94,11 +94,12 @@ fn fig_4b_plot(name: &str) -> String {
     let mesh: Mesh = Irregular::of_the_paper().drawing();
     let curve = |(name, faces): (String, Vec<[u32; 3]>)| {
         let faces = [faces.as_slice()];
-        Curve::new(name, faces.into_iter())
+        Curve::of_cache_sizes(name, faces.into_iter())
     };
     let curves: Vec<Curve> = fig_4b_sequences(&mesh).map(curve).collect();
     let svg = plot::svg(
         "Misses per face over the cache size, irregular mesh",
+        &[Axis::of_cache_sizes(), Axis::of_misses(&curves)],
         &curves,
     );
     svg.replacen('\n', &format!("\n<desc>{name}</desc>\n"), 1)
