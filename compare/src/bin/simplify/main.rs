@@ -9,14 +9,22 @@
 //! first, at its defaults and with any error allowed, then ours at the number of faces that it
 //! reached. Distances are two-sided, from all vertices and from N points a side, a million by default.
 //! Times are of one thread, from the mesh to 1 % of its faces.
+//!
+//! ```text
+//!   --floors   the fewest faces of either, by default of five scenes with seams, skins and morph targets
+//!   --growth   memory and time a face at 1 and 10 million faces, or of the meshes that are named
+//! ```
 
 mod figures;
+mod floors;
+mod growth;
 mod ours;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use compare::counting::Counting;
 use compare::rivals;
 use compare::timing::median;
 use meshweft::Mesh;
@@ -25,6 +33,9 @@ use meshweft::order::Effort;
 
 use figures::{Row, Summary, print_head};
 use ours::ours;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
 
 const MESHES: [&str; 10] = [
     "cow.off.gz",
@@ -48,6 +59,7 @@ fn main() -> ExitCode {
 
 fn run() -> Result<(), String> {
     let (mut effort, mut samples) = (Effort::Fast, SAMPLES);
+    let mut table = None;
     let mut files = Vec::new();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
@@ -65,9 +77,21 @@ fn run() -> Result<(), String> {
                 let number = text.parse();
                 samples = number.map_err(|_| format!("--samples {text}: not a number"))?;
             }
+            "--floors" | "--growth" => table = Some(argument),
             flag if flag.starts_with("--") => return Err(format!("{flag} is not a flag")),
             _ => files.push(PathBuf::from(argument)),
         }
+    }
+    if table.as_deref() == Some("--growth") {
+        return growth::print(&files);
+    }
+    if table.is_some() {
+        let scenes = |data: &Path| {
+            floors::SCENES
+                .map(|name| data.join("gltf").join(name))
+                .into()
+        };
+        return floors::print(&compare::files_or(files, scenes)?);
     }
     if files.is_empty() {
         let folder = compare::needed_data_folder()?.join("meshes");

@@ -29,7 +29,7 @@ pub enum StopReason {
     Faces,
     /// The next removals would have a larger error than was allowed.
     Error,
-    /// No other vertex can be removed: what is left is as coarse as seams, borders and the topology allow.
+    /// No other vertex can be removed: what is left is as coarse as its shape and topology allow.
     NothingLeft,
 }
 

@@ -9,9 +9,9 @@ use crate::attribute::{Attribute, Semantic};
 use crate::order::Effort;
 use crate::random::SplitMix64;
 
-const EFFORTS: [Effort; 2] = [Effort::Fast, Effort::Best];
+pub(super) const EFFORTS: [Effort; 2] = [Effort::Fast, Effort::Best];
 
-fn vertex_count(faces: &[[u32; 3]]) -> usize {
+pub(super) fn vertex_count(faces: &[[u32; 3]]) -> usize {
     faces
         .as_flattened()
         .iter()
@@ -20,7 +20,7 @@ fn vertex_count(faces: &[[u32; 3]]) -> usize {
 }
 
 /// Edges by how many faces have them in one and in the other direction.
-fn edges(faces: &[[u32; 3]]) -> BTreeMap<[u32; 2], [u32; 2]> {
+pub(super) fn edges(faces: &[[u32; 3]]) -> BTreeMap<[u32; 2], [u32; 2]> {
     let mut edges: BTreeMap<_, [u32; 2]> = BTreeMap::new();
     for &[a, b, c] in faces {
         for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -31,7 +31,7 @@ fn edges(faces: &[[u32; 3]]) -> BTreeMap<[u32; 2], [u32; 2]> {
 }
 
 /// Vertices − edges + faces, and the number of open edges' loops that the border has.
-fn topology(faces: &[[u32; 3]]) -> (i64, bool) {
+pub(super) fn topology(faces: &[[u32; 3]]) -> (i64, bool) {
     let vertices: BTreeSet<u32> = faces.as_flattened().iter().copied().collect();
     let edges = edges(faces);
     let is_manifold = edges.values().all(|&[there, back]| there <= 1 && back <= 1);
@@ -42,7 +42,7 @@ fn topology(faces: &[[u32; 3]]) -> (i64, bool) {
 }
 
 /// Calls `check` with the faces of each level.
-fn at_each_level(mesh: &ProgressiveMesh, mut check: impl FnMut(usize, &[[u32; 3]])) {
+pub(super) fn at_each_level(mesh: &ProgressiveMesh, mut check: impl FnMut(usize, &[[u32; 3]])) {
     let mut walk = Walk::new(mesh);
     let mut faces = Vec::new();
     for level in 0..=mesh.last_level() {
@@ -53,7 +53,7 @@ fn at_each_level(mesh: &ProgressiveMesh, mut check: impl FnMut(usize, &[[u32; 3]
 }
 
 /// The faces of the last level.
-fn coarsest(mesh: &ProgressiveMesh) -> Vec<[u32; 3]> {
+pub(super) fn coarsest(mesh: &ProgressiveMesh) -> Vec<[u32; 3]> {
     let mut walk = Walk::new(mesh);
     walk.go_to(mesh.last_level());
     let mut faces = Vec::new();
@@ -94,7 +94,7 @@ fn manifolds_stay_manifolds_of_the_same_topology() {
 }
 
 /// Every record is one that a history takes, and both have the same faces.
-fn agrees_with_its_history(progressive: &ProgressiveMesh) {
+pub(super) fn agrees_with_its_history(progressive: &ProgressiveMesh) {
     let history = progressive.history().unwrap();
     assert_eq!(history.len(), progressive.last_level());
     at_each_level(progressive, |level, faces| {
@@ -244,35 +244,6 @@ fn a_needle_keeps_its_point() {
         .unwrap();
         let faces = coarsest(&progressive);
         assert!(faces.as_flattened().contains(&40));
-    }
-}
-
-#[test]
-fn seams_do_not_tear() {
-    let (mesh, attributes) = boxed(6);
-    let point = |vertex: u32| mesh.positions()[vertex as usize].map(|x| (x + 0.0).to_bits());
-    for effort in EFFORTS {
-        let progressive = Collapses {
-            effort,
-            ..Collapses::default()
-        }
-        .build(&mesh, &attributes)
-        .unwrap();
-        at_each_level(&progressive, |level, faces| {
-            // Closed at every level, by position.
-            let mut points = BTreeMap::new();
-            let mut number = |vertex: u32| {
-                let next = u32::try_from(points.len()).unwrap();
-                *points.entry(point(vertex)).or_insert(next)
-            };
-            let faces: Vec<_> = faces.iter().map(|face| face.map(&mut number)).collect();
-            assert_eq!(topology(&faces), (2, true), "level {level}");
-            assert!(
-                edges(&faces).values().all(|&both| both == [1, 1]),
-                "level {level} is open"
-            );
-        });
-        assert_eq!(progressive.face_count(progressive.level_of_error(1e-6)), 12);
     }
 }
 

@@ -41,6 +41,16 @@ impl AttributeWeights {
     }
 }
 
+/// Whether an attribute says where a vertex is in a pose.
+pub(super) fn moves_a_vertex(attribute: &Attribute) -> bool {
+    let info = &attribute.info;
+    match info.semantic {
+        Semantic::Position => info.morph_target.is_some(),
+        Semantic::Joints(_) | Semantic::Weights(_) => true,
+        _ => false,
+    }
+}
+
 /// All weighed attributes of each vertex, as lengths.
 #[derive(Debug)]
 pub(super) struct Lengths {
@@ -51,14 +61,14 @@ pub(super) struct Lengths {
 impl Lengths {
     /// `None` where no attribute counts.
     pub(super) fn new(
-        attributes: &[Attribute],
+        attributes: &[&Attribute],
         weights: AttributeWeights,
         vertices: usize,
         diagonal: f64,
     ) -> Option<Self> {
         let weighed = attributes
             .iter()
-            .map(|attribute| (attribute, weights.of(attribute)));
+            .map(|&attribute| (attribute, weights.of(attribute)));
         let weighed: Vec<_> = weighed.filter(|&(_, weight)| weight > 0.0).collect();
         let components: usize = weighed
             .iter()
@@ -89,6 +99,13 @@ impl Lengths {
 
     fn at(&self, vertex: u32) -> &[f32] {
         &self.of[vertex as usize * self.components..][..self.components]
+    }
+
+    /// How much two vertices differ.
+    pub(super) fn between(&self, a: u32, b: u32) -> f64 {
+        let both = self.at(a).iter().zip(self.at(b));
+        let squares = both.map(|(&a, &b)| (f64::from(a) - f64::from(b)).powi(2));
+        squares.sum::<f64>().sqrt()
     }
 
     /// The greatest difference between an attribute of the point and what is at its place once it moved to

@@ -5,9 +5,8 @@ use super::fan::{Move, Precision};
 use super::link::{self, Marks};
 use super::parts::ConnectedParts;
 use super::queue::RemovalQueue;
-use super::remaining::{FanFace, RemainingMesh};
+use super::remaining::{FanFace, NONE, RemainingMesh};
 use super::settings::Collapses;
-use super::sides;
 use crate::attribute::Attribute;
 use crate::index::index32;
 use crate::progressive::records::{Records, SidePair};
@@ -29,7 +28,7 @@ impl<'a> Builder<'a> {
     pub(super) fn new(
         settings: Collapses,
         mut rest: RemainingMesh<'a>,
-        attributes: &[Attribute],
+        attributes: &[&Attribute],
     ) -> Self {
         let points = rest.point_count();
         let parts = settings.drop_parts.then(|| ConnectedParts::new(&mut rest));
@@ -137,7 +136,7 @@ impl<'a> Builder<'a> {
             }
             match found.precision {
                 Precision::Planes => {
-                    if !self.costs.measure(&self.rest, point, at) {
+                    if !self.costs.measure(&mut self.rest, point, at) {
                         self.costs.moves.swap_remove(at);
                     }
                     continue;
@@ -161,7 +160,7 @@ impl<'a> Builder<'a> {
                     point,
                     found.to,
                 )
-                && sides::pair(&self.rest, &self.costs.fan, found.to, &mut self.costs.pairs);
+                && self.costs.pair(&mut self.rest, found.to);
             if is_allowed {
                 self.collapse(point, found);
                 return;
@@ -173,29 +172,37 @@ impl<'a> Builder<'a> {
     fn collapse(&mut self, point: u32, found: Move) {
         let error = self.costs.remove(point, found);
         self.largest_error = self.largest_error.max(error);
-        let (fan, pairs) = (&self.costs.fan, &self.costs.pairs);
+        let fan = &self.costs.fan;
 
-        // Corners that change, vertex by vertex, then faces that leave.
-        for &pair in pairs {
-            for (face, _) in fan.staying(found.to) {
-                if self.rest.side(face.corner) == pair.from {
-                    self.records.push_corner(face.corner);
-                }
-            }
-            self.records.push_pair(pair);
-        }
+        // Faces that leave.
         let leaving = |face: &&FanFace| face.ring.contains(&found.to);
         for face in fan.faces.iter().filter(leaving) {
             self.rest.remove(face.face());
             self.records.push_leaving(face.face());
         }
         self.rest.forget(point);
-        for (face, _) in fan.staying(found.to) {
-            let side = self.rest.side(face.corner);
-            let pair = pairs.iter().find(|pair| pair.from == side);
-            let to = pair.map_or(found.to, |pair| pair.to);
-            self.rest.set_corner(face.corner, found.to, to);
+
+        // Corners that change, vertex by vertex; then vertices that no corner changes for.
+        self.costs.pairs.retain(|&pair| {
+            let mut is_last = true;
+            for (face, _) in fan.staying(found.to) {
+                if self.rest.side(face.corner) == pair.from {
+                    self.rest.set_corner(face.corner, found.to, pair.to);
+                    self.records.push_corner(face.corner);
+                    is_last = false;
+                }
+            }
+            if !is_last {
+                self.records.push_pair(pair);
+            }
+            is_last
+        });
+        for at in 0..self.costs.pairs.len() {
+            let SidePair { from, to } = self.costs.pairs[at];
+            let to = self.in_use(to, found.to);
+            self.records.push_pair(SidePair { from, to });
         }
+        self.unused_leave(found.to);
         self.records.finish(self.largest_error);
 
         // Neighbours that could not go may be able to now.
@@ -204,6 +211,40 @@ impl<'a> Builder<'a> {
                 if !self.is_locked[neighbour as usize] && !self.queue.has(neighbour) {
                     self.push(neighbour, 0.0);
                 }
+            }
+        }
+    }
+
+    /// A vertex at a point, or the one that stands for it if no face has it any more.
+    fn in_use(&mut self, side: u32, point: u32) -> u32 {
+        if self.rest.is_side_used(side) {
+            return side;
+        }
+        let sides = &mut self.costs.sides;
+        sides.stand_in(&mut self.rest, side, point).unwrap_or(side)
+    }
+
+    /// At points that stay, vertices that only leaving faces had go to others there.
+    fn unused_leave(&mut self, to: u32) {
+        if self.rest.is_seamless() {
+            return;
+        }
+        let mut seen = [NONE; 4];
+        let mut count = 0;
+        for at in 0..self.costs.fan.faces.len() {
+            let face = self.costs.fan.faces[at];
+            if !face.ring.contains(&to) {
+                continue;
+            }
+            for (point, corner) in face.ring.into_iter().zip(face.others()) {
+                let from = self.rest.side(corner);
+                if self.rest.is_side_used(from) || seen.contains(&from) {
+                    continue;
+                }
+                seen[count] = from;
+                count += 1;
+                let to = self.in_use(from, point);
+                self.records.push_pair(SidePair { from, to });
             }
         }
     }

@@ -5,7 +5,7 @@ use super::fan::{Fan, Move, Precision, border};
 use super::patch::Patch;
 use super::remaining::RemainingMesh;
 use super::settings::Collapses;
-use super::sides;
+use super::sides::SidePairing;
 use super::witnesses::{Witnesses, farthest_middle};
 use crate::attribute::Attribute;
 use crate::geometry::double::{Bounds, cross, dot, sub};
@@ -26,7 +26,7 @@ pub(super) struct RemovalCosts {
     pub(super) is_limited: bool,
     /// How far the surface at each point may be from the full one.
     history: Vec<f32>,
-    lengths: Option<Lengths>,
+    pub(super) sides: SidePairing,
     witnesses: Option<Witnesses>,
     /// The area of all faces at the beginning, twice.
     double_area: f64,
@@ -45,16 +45,17 @@ impl RemovalCosts {
     pub(super) fn new(
         settings: &Collapses,
         rest: &RemainingMesh<'_>,
-        attributes: &[Attribute],
+        attributes: &[&Attribute],
     ) -> Self {
         let (points, faces) = (rest.point_count(), rest.face_count() as usize);
         let (double_area, diagonal) = size(rest);
+        let lengths = Lengths::new(attributes, settings.weights, points, diagonal);
         let has_witnesses = settings.effort != Effort::Fast;
         Self {
             most_error: settings.error.into(),
             is_limited: false,
             history: vec![0.0; points],
-            lengths: Lengths::new(attributes, settings.weights, points, diagonal),
+            sides: SidePairing::new(rest, attributes, lengths, diagonal),
             witnesses: has_witnesses.then(|| Witnesses::new(faces, points)),
             double_area,
             scale: if diagonal > 0.0 {
@@ -145,18 +146,20 @@ impl RemovalCosts {
 
     /// Puts into the cost of a move how far the faces that stay are from the point and its attributes;
     /// `false` if it cannot be made.
-    pub(super) fn measure(&mut self, rest: &RemainingMesh<'_>, point: u32, at: usize) -> bool {
+    pub(super) fn measure(&mut self, rest: &mut RemainingMesh<'_>, point: u32, at: usize) -> bool {
         let found = &mut self.moves[at];
         let (to, step) = (found.to, found.step);
         found.distance = found.distance.max(self.fan.distance_after(to, step));
 
         // Attributes count as a distance at right angles.
         let mut difference = 0.0;
-        if let Some(lengths) = &self.lengths {
-            if !sides::pair(rest, &self.fan, to, &mut self.pairs) {
+        if !rest.is_seamless() || self.sides.lengths.is_some() {
+            let Some(price) = self.sides.pair(rest, &self.fan, to, &mut self.pairs) else {
                 return false;
-            }
-            difference = lengths.difference(rest, &self.fan, to, step, &self.pairs);
+            };
+            let lengths = self.sides.lengths.as_ref();
+            let there = |it: &Lengths| it.difference(rest, &self.fan, to, step, &self.pairs);
+            difference = lengths.map_or(0.0, there).max(price);
             found.base += 0.5 * self.fan.double_area * difference * difference;
         }
         found.distance = found.distance.hypot(difference);
@@ -171,6 +174,12 @@ impl RemovalCosts {
         found.cost = base + far_cost;
         found.precision = Precision::Point;
         true
+    }
+
+    /// Finds where the vertices at the point go with a move; `false` if it cannot be made.
+    pub(super) fn pair(&mut self, rest: &mut RemainingMesh<'_>, to: u32) -> bool {
+        let price = self.sides.pair(rest, &self.fan, to, &mut self.pairs);
+        price.is_some()
     }
 
     /// Whether removed points are remembered.

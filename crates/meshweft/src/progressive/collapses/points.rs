@@ -20,7 +20,7 @@ impl WeldedPoints {
     /// is a point.
     ///
     /// Time O(vertices log vertices) whatever the values are.
-    pub(super) fn new(positions: &[[f32; 3]], attributes: &[Attribute]) -> Self {
+    pub(super) fn new(positions: &[[f32; 3]], attributes: &[&Attribute]) -> Self {
         // Vertices by a hash of their position, so that equal ones come together.
         let hash = |[x, y, z]: [u32; 3]| {
             let mixed = [x, y, z].iter().fold(0_u64, |mixed, &part| {
@@ -62,7 +62,7 @@ impl WeldedPoints {
     }
 
     /// Takes vertices of one position, in ascending order.
-    fn group(&mut self, vertices: &mut [u32], attributes: &[Attribute]) {
+    fn group(&mut self, vertices: &mut [u32], attributes: &[&Attribute]) {
         for &vertex in &*vertices {
             self.point_of[vertex as usize] = vertices[0];
         }
@@ -81,7 +81,7 @@ fn bits(number: f32) -> u32 {
 }
 
 /// Two vertices by all their attributes.
-fn order(attributes: &[Attribute], a: u32, b: u32) -> Ordering {
+fn order(attributes: &[&Attribute], a: u32, b: u32) -> Ordering {
     attributes
         .iter()
         .map(|attribute| order_in(attribute, a, b))

@@ -13,6 +13,8 @@ pub(super) struct RemainingMesh<'a> {
     points: Vec<[u32; 3]>,
     /// The three vertices of each face; empty where every point has one vertex.
     sides: Vec<[u32; 3]>,
+    /// How many corners name each vertex; empty as the sides.
+    uses: Vec<u32>,
     /// The next corner at the same point, of each corner. Corners of faces that left are taken out when
     /// they are met.
     next: Vec<u32>,
@@ -55,8 +57,9 @@ impl<'a> RemainingMesh<'a> {
         let is_point = |&vertex: &u32| point_of[vertex as usize] == vertex;
         let is_seamless = faces.as_flattened().iter().all(is_point);
         let mut points = faces.to_vec();
-        let mut sides = Vec::new();
+        let (mut sides, mut uses) = (Vec::new(), Vec::new());
         if !is_seamless {
+            uses.resize(positions.len(), 0);
             sides.extend_from_slice(faces);
             for corner in points.as_flattened_mut() {
                 *corner = point_of[*corner as usize];
@@ -73,6 +76,11 @@ impl<'a> RemainingMesh<'a> {
                 continue;
             }
             live_faces += 1;
+            if let Some(sides) = sides.get(face) {
+                sides
+                    .iter()
+                    .for_each(|&side: &u32| uses[side as usize] += 1);
+            }
             for slot in 0..3 {
                 let corner = 3 * face + slot;
                 next[corner] =
@@ -83,6 +91,7 @@ impl<'a> RemainingMesh<'a> {
             positions,
             points,
             sides,
+            uses,
             next,
             first,
             live_faces,
@@ -112,6 +121,11 @@ impl<'a> RemainingMesh<'a> {
         self.points[face as usize]
     }
 
+    /// The position of each point.
+    pub(super) fn positions(&self) -> &'a [[f32; 3]] {
+        self.positions
+    }
+
     pub(super) fn position(&self, point: u32) -> [f64; 3] {
         self.positions[point as usize].map(f64::from)
     }
@@ -129,6 +143,25 @@ impl<'a> RemainingMesh<'a> {
     /// Whether every point has one vertex.
     pub(super) fn is_seamless(&self) -> bool {
         self.sides.is_empty()
+    }
+
+    /// Whether a face has a vertex; asked where points have several.
+    pub(super) fn is_side_used(&self, side: u32) -> bool {
+        self.uses.get(side as usize).is_none_or(|&uses| uses > 0)
+    }
+
+    /// Puts the vertices that the first so many faces at a point have there into `sides`, sorted.
+    pub(super) fn put_sides(&mut self, point: u32, faces: usize, sides: &mut Vec<u32>) {
+        sides.clear();
+        self.visit(point, |face| {
+            sides.push(face.corner);
+            sides.len() < faces
+        });
+        for side in &mut *sides {
+            *side = self.side(*side);
+        }
+        sides.sort_unstable();
+        sides.dedup();
     }
 
     pub(super) fn is_used(&self, point: u32) -> bool {
@@ -175,13 +208,19 @@ impl<'a> RemainingMesh<'a> {
         debug_assert!(self.is_live(face), "a face leaves once");
         self.points[face as usize][0] = NONE;
         self.live_faces -= 1;
+        if let Some(sides) = self.sides.get(face as usize) {
+            sides.iter().for_each(|&side| self.uses[side as usize] -= 1);
+        }
     }
 
     /// Moves a corner to another point and vertex.
     pub(super) fn set_corner(&mut self, corner: u32, point: u32, side: u32) {
         self.points.as_flattened_mut()[corner as usize] = point;
         if !self.sides.is_empty() {
-            self.sides.as_flattened_mut()[corner as usize] = side;
+            let before = &mut self.sides.as_flattened_mut()[corner as usize];
+            self.uses[*before as usize] -= 1;
+            self.uses[side as usize] += 1;
+            *before = side;
         }
         self.next[corner as usize] = std::mem::replace(&mut self.first[point as usize], corner);
     }

@@ -1,33 +1,140 @@
 //! The vertices at a point, and where they go.
 
-use super::fan::Fan;
+use super::attributes::{Lengths, moves_a_vertex};
+use super::fan::{Fan, MOST_FACES};
+use super::points::WeldedPoints;
 use super::remaining::RemainingMesh;
+use crate::attribute::Attribute;
 use crate::progressive::records::SidePair;
 
-/// Pairs each vertex at the point of a fan with the one at `to` that has a leaving face in common with it.
-/// `false` where a vertex has none or two: one of its attributes would have to change.
-pub(super) fn pair(
-    rest: &RemainingMesh<'_>,
-    fan: &Fan,
-    to: u32,
-    pairs: &mut Vec<SidePair>,
-) -> bool {
-    pairs.clear();
-    for face in &fan.faces {
-        let Some(other) = face.corner_at(to) else {
-            continue;
+/// How far a vertex without a partner counts as moved at least, in diagonals of the bounding box: partners are
+/// preferred down to about half of the faces.
+const LEAST_PRICE: f64 = 0.01;
+
+/// What is known of vertices at one point that are not the same.
+#[derive(Debug)]
+pub(super) struct SidePairing {
+    pub(super) lengths: Option<Lengths>,
+    /// Of vertices at one point that move together in every pose the first; empty where all do.
+    moves_as: Vec<u32>,
+    least_price: f64,
+    /// The vertices at the neighbour.
+    there: Vec<u32>,
+}
+
+impl SidePairing {
+    pub(super) fn new(
+        rest: &RemainingMesh<'_>,
+        attributes: &[&Attribute],
+        lengths: Option<Lengths>,
+        diagonal: f64,
+    ) -> Self {
+        let moving = attributes.iter().copied();
+        let moving: Vec<&Attribute> = moving.filter(|it| moves_a_vertex(it)).collect();
+        let moves_as = match rest.is_seamless() || moving.is_empty() {
+            true => Vec::new(),
+            false => WeldedPoints::new(rest.positions(), &moving).same_as,
         };
-        let (from, to) = (rest.side(face.corner), rest.side(other));
-        match pairs.iter().find(|pair| pair.from == from) {
-            Some(pair) if pair.to == to => {}
-            Some(_) => return false,
-            None => pairs.push(SidePair { from, to }),
+        Self {
+            lengths,
+            moves_as,
+            least_price: LEAST_PRICE * diagonal,
+            there: Vec::new(),
         }
     }
-    let is_paired = |side: u32| pairs.iter().any(|pair| pair.from == side);
-    rest.is_seamless()
-        || fan
-            .faces
-            .iter()
-            .all(|face| is_paired(rest.side(face.corner)))
+
+    /// Whether two vertices at one point are at one point in every pose.
+    fn move_alike(&self, a: u32, b: u32) -> bool {
+        self.moves_as.is_empty() || self.moves_as[a as usize] == self.moves_as[b as usize]
+    }
+
+    /// How much two vertices differ, as a length.
+    fn difference(&self, a: u32, b: u32) -> f64 {
+        let difference = self.lengths.as_ref().map_or(0.0, |it| it.between(a, b));
+        if difference.is_finite() {
+            difference
+        } else {
+            0.0
+        }
+    }
+
+    /// Pairs each vertex at the point of a fan with one at `to`: the one that has a leaving face in common
+    /// with it. Where a vertex has none or two, its attributes have to change, and the nearest vertex is
+    /// taken. Returns what that costs as a distance, 0 where all have partners; `None` where vertices would
+    /// come apart, or together, in another pose.
+    pub(super) fn pair(
+        &mut self,
+        rest: &mut RemainingMesh<'_>,
+        fan: &Fan,
+        to: u32,
+        pairs: &mut Vec<SidePair>,
+    ) -> Option<f64> {
+        // By leaving faces.
+        pairs.clear();
+        let mut price = 0.0_f64;
+        for face in &fan.faces {
+            let Some(other) = face.corner_at(to) else {
+                continue;
+            };
+            let (from, to) = (rest.side(face.corner), rest.side(other));
+            match pairs.iter_mut().find(|pair| pair.from == from) {
+                Some(pair) if pair.to == to => {}
+                Some(pair) => {
+                    if !self.move_alike(pair.to, to) {
+                        return None;
+                    }
+                    price = price
+                        .max(self.difference(pair.to, to))
+                        .max(self.least_price);
+                    if self.difference(from, to) < self.difference(from, pair.to) {
+                        pair.to = to;
+                    }
+                }
+                None => pairs.push(SidePair { from, to }),
+            }
+        }
+        if rest.is_seamless() {
+            return Some(price);
+        }
+
+        // By likeness.
+        let partners = pairs.len();
+        self.there.clear();
+        for face in &fan.faces {
+            let from = rest.side(face.corner);
+            if pairs.iter().any(|pair| pair.from == from) {
+                continue;
+            }
+            let as_one = |pair: &&SidePair| self.move_alike(pair.from, from);
+            let guide = pairs[..partners].iter().find(as_one)?.to;
+            if self.there.is_empty() {
+                rest.put_sides(to, MOST_FACES, &mut self.there);
+            }
+            let alike = self.there.iter().copied();
+            let alike = alike.filter(|&side| self.move_alike(side, guide));
+            let to = alike.chain([guide]).min_by(|&a, &b| {
+                let [near, far] = [a, b].map(|side| self.difference(from, side));
+                near.total_cmp(&far).then(a.cmp(&b))
+            })?;
+            price = price.max(self.difference(from, to)).max(self.least_price);
+            pairs.push(SidePair { from, to });
+        }
+        Some(price)
+    }
+
+    /// The vertex in use that is most like one at the same point that no face uses any more.
+    pub(super) fn stand_in(
+        &mut self,
+        rest: &mut RemainingMesh<'_>,
+        side: u32,
+        point: u32,
+    ) -> Option<u32> {
+        rest.put_sides(point, MOST_FACES, &mut self.there);
+        self.there.iter().copied().min_by(|&a, &b| {
+            let apart = [a, b].map(|it| !self.move_alike(side, it));
+            let [near, far] = [a, b].map(|it| self.difference(side, it));
+            let nearest = near.total_cmp(&far).then(a.cmp(&b));
+            apart[0].cmp(&apart[1]).then(nearest)
+        })
+    }
 }
