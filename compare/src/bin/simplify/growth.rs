@@ -1,9 +1,9 @@
-//! Memory and time a face, as meshes get larger.
+//! Memory and processor time a face, as meshes get larger.
 
 use std::path::PathBuf;
-use std::time::Instant;
 
 use compare::counting::with_peak;
+use compare::process;
 use meshweft::Mesh;
 use meshweft::order::Effort;
 use meshweft::progressive::Collapses;
@@ -46,9 +46,9 @@ fn row(name: &str, mesh: &Mesh, effort_name: &str, effort: Effort) -> Result<f64
         effort,
         ..Collapses::default()
     };
-    let start = Instant::now();
+    let start = process::own_seconds();
     let (built, peak) = with_peak(|| settings.build(mesh, &[]));
-    let seconds = start.elapsed().as_secs_f64();
+    let seconds = process::own_seconds() - start;
     let built = built.map_err(|error| error.to_string())?;
     let faces = mesh.face_count();
     let [bytes, seconds] = [peak as f64, seconds].map(|figure| figure / faces.max(1) as f64);
