@@ -20,7 +20,7 @@ mod floors;
 mod growth;
 mod ours;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::made::{boxed, grid, hills, somewhere, sphere};
+use super::made::{grid, hills, somewhere, sphere};
 use super::{Collapses, ProgressiveMesh, StopReason, Walk};
 use crate::Mesh;
 use crate::attribute::{Attribute, Semantic};
