@@ -44,7 +44,9 @@
 //! result on every platform.
 
 pub mod attribute;
+pub mod bits;
 pub mod cache;
+pub mod connectivity;
 mod error;
 mod faces;
 #[cfg(feature = "files")]

@@ -23,7 +23,7 @@ pub(super) type MakeFigure<'a> = (&'a str, &'a str, &'a dyn Fn() -> Result<Figur
 /// written.
 pub(super) fn print(
     report: &Report,
-    doi: &str,
+    paper: &str,
     figures: &[MakeFigure<'_>],
     files: &[String],
 ) -> Result<()> {
@@ -32,7 +32,7 @@ pub(super) fn print(
     progress.enable_steady_tick(Duration::from_millis(500));
 
     let mut json = Map::new();
-    json.insert("paper".into(), json!(format!("doi:{doi}")));
+    json.insert("paper".into(), json!(paper));
     for &(name, key, make) in figures {
         progress.set_message(name.to_owned());
         let figure = make()?;

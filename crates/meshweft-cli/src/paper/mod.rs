@@ -6,6 +6,7 @@ mod figure;
 mod irregular;
 mod levels;
 mod lin_yu;
+mod lin_zhang;
 mod meshes;
 
 use anyhow::Result;
@@ -38,6 +39,14 @@ enum WhichPaper {
     ///   meshweft paper bogomjakov-gotsman --data folder-with-meshes --pictures folder
     #[command(verbatim_doc_comment)]
     BogomjakovGotsman(BogomjakovGotsman),
+    /// Lin, Zhang: Joint Connectivity Compression and Mesh Rendering
+    ///
+    /// Tables 1 and 2 and figures 3 and 4, on the meshes that are found: bits of each part, how often the
+    /// paper's guesses are right, and how large the buffer must be in which each vertex is sent once.
+    ///
+    ///   meshweft paper lin-zhang --data folder-with-meshes
+    #[command(verbatim_doc_comment)]
+    LinZhang(OfPaper),
 }
 
 /// Prints the figures of a paper for the meshes that are found.
@@ -45,5 +54,6 @@ pub(crate) fn run(arguments: &Paper) -> Result<()> {
     match &arguments.paper {
         WhichPaper::LinYu(arguments) => lin_yu::run(arguments),
         WhichPaper::BogomjakovGotsman(arguments) => bogomjakov_gotsman::run(arguments),
+        WhichPaper::LinZhang(arguments) => lin_zhang::run(arguments),
     }
 }

@@ -7,7 +7,7 @@ use crate::basics::grid_obj;
 fn papers_without_their_meshes_say_what_they_look_for() {
     let folder = Folder::new("papers");
     folder.write("other.obj", grid_obj());
-    for paper in ["lin-yu", "bogomjakov-gotsman"] {
+    for paper in ["lin-yu", "bogomjakov-gotsman", "lin-zhang"] {
         let failed = folder.run(&["paper", paper, "--data", "."]);
         assert_eq!(failed.code(), 1);
         assert!(failed.err().contains("bunny.ply"), "{}", failed.err());
@@ -65,4 +65,20 @@ fn pictures_of_a_paper_replace_no_file_of_others() {
     let forced = folder.run(&[&flags[..], &["drawn/here", "--force"]].concat());
     assert_eq!(forced.code(), 0);
     assert!(folder.read("drawn/here/figure-6.svg") == pictures[3]);
+}
+
+#[test]
+fn the_example_of_lin_and_zhang_is_as_printed() {
+    let folder = Folder::new("lin-zhang");
+    folder.write("mannequin.obj", grid_obj());
+    let run = folder.run(&["paper", "lin-zhang", "--data", ".", "--json"]);
+    let json = run.json();
+    assert_eq!(json["table_2"]["equal"], 17);
+    assert_eq!(json["figure_4"]["buffer_size"], 9);
+    // Not the paper's mannequin.
+    assert_eq!(json["table_1"][0]["mesh"], "Mannequin*");
+    assert!(
+        json["buffers"][0]["buffer_size"].as_u64()
+            <= json["table_1"][0]["ours"]["buffer_size"].as_u64()
+    );
 }

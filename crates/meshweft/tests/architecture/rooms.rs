@@ -7,7 +7,7 @@ use crate::sources::Sources;
 
 /// The rooms from the ground up, with the groups of rooms that each may name beside itself: only
 /// such as stand above it in this list, so that every arrow points one way.
-const ROOMS: [(&str, &[&[&str]]); 19] = [
+const ROOMS: [(&str, &[&[&str]]); 21] = [
     ("error", &[]),
     ("index", &[&["error"]]),
     ("limits", &[BOUNDS]),
@@ -15,6 +15,7 @@ const ROOMS: [(&str, &[&[&str]]); 19] = [
     ("random", &[BOUNDS, &["parallel"]]),
     ("progress", &[]),
     ("geometry", &[GROUND]),
+    ("bits", &[&["random"]]),
     ("faces", &[BOUNDS]),
     ("first_use", &[BOUNDS, &["faces"]]),
     ("permutation", &[BOUNDS, &["random", "faces"]]),
@@ -27,6 +28,7 @@ const ROOMS: [(&str, &[&[&str]]); 19] = [
     ("order", &[GROUND, VALUES, ALGORITHMS]),
     // Its sequences start from orders.
     ("progressive", &[GROUND, VALUES, ALGORITHMS, &["order"]]),
+    ("connectivity", &[GROUND, VALUES, &["bits", "topology"]]),
     // Readers and writers know no algorithm, and no algorithm knows them.
     ("files", &[GROUND, VALUES]),
     // The only place that joins both.
@@ -36,7 +38,7 @@ const ROOMS: [(&str, &[&[&str]]); 19] = [
             GROUND,
             VALUES,
             ALGORITHMS,
-            &["order", "progressive", "files"],
+            &["order", "progressive", "connectivity", "files"],
         ],
     ),
 ];
@@ -54,7 +56,14 @@ const VALUES: &[&str] = &[
 const ALGORITHMS: &[&str] = &["topology", "partition", "cache"];
 
 /// What the program may name of the library: these rooms whole …
-const OPEN_TO_THE_PROGRAM: [&str; 5] = ["operations", "cache", "files", "geometry", "attribute"];
+const OPEN_TO_THE_PROGRAM: [&str; 6] = [
+    "operations",
+    "cache",
+    "connectivity",
+    "files",
+    "geometry",
+    "attribute",
+];
 /// … the types at the root …
 const ROOT_TYPES: [&str; 10] = [
     "Budget",

@@ -72,7 +72,7 @@ pub(super) fn run(arguments: &BogomjakovGotsman) -> Result<()> {
     };
     print(
         report,
-        "10.1111/1467-8659.00573",
+        "doi:10.1111/1467-8659.00573",
         &[
             ("Fig. 3", "figure_3", &|| Ok(fig_3())),
             ("Fig. 4a", "figure_4a", &|| Ok(fig_4a())),

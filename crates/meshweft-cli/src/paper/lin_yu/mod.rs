@@ -34,7 +34,7 @@ pub(super) fn run(arguments: &OfPaper) -> Result<()> {
 
     print(
         &arguments.report,
-        "10.1109/TVCG.2006.59",
+        "doi:10.1109/TVCG.2006.59",
         &[
             ("Fig. 3", "figure_3", &|| Ok(fig_3(&found))),
             ("Fig. 6", "figure_6", &|| Ok(fig_6(&found))),

@@ -1,0 +1,168 @@
+//! Frequencies of 16 symbols that follow what comes.
+
+/// How many symbols a table has.
+pub(crate) const SYMBOLS: usize = 16;
+/// Frequencies add up to two to the power of this.
+pub(super) const PRECISION: u32 = 15;
+/// Bits of the fraction of a frequency.
+const FRACTION: u32 = 12;
+
+/// Cumulative frequencies of 16 symbols, which move towards the symbols that come: a third of the way at first,
+/// a 300th in the end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct AdaptiveTable {
+    /// Where each symbol begins, with a fraction; the first is 0. At least one whole is between two.
+    begins: [i32; SYMBOLS],
+    /// How many symbols it has seen, as far as that changes a step.
+    seen: u16,
+}
+
+/// How far a table moves after so many symbols, in parts of 1,024.
+static STEPS: [i32; 340] = {
+    let mut steps = [0; 340];
+    let mut seen = 0;
+    while seen < steps.len() {
+        #[expect(clippy::cast_possible_truncation, reason = "below 340")]
+        let tenths = 10 * seen as i32 + 22;
+        steps[seen] = 10_240 / tenths;
+        seen += 1;
+    }
+    steps
+};
+
+/// Where symbols begin once only one comes: from the place of that symbol on, and before it.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "below 16"
+)]
+const fn goal(place: usize, symbol: usize) -> i32 {
+    match place > symbol {
+        true => (1 << PRECISION) - (SYMBOLS - place) as i32,
+        false => place as i32,
+    }
+}
+
+impl AdaptiveTable {
+    /// All symbols alike.
+    pub(crate) const EVEN: Self = {
+        let mut begins = [0; SYMBOLS];
+        let mut place = 1;
+        while place < SYMBOLS {
+            begins[place] = begins[place - 1] + (1 << (PRECISION + FRACTION - 4));
+            place += 1;
+        }
+        Self { begins, seen: 0 }
+    };
+
+    /// Where a symbol begins, and its frequency, which is never 0.
+    #[inline]
+    pub(super) fn interval(&self, symbol: usize) -> Interval {
+        let begin = self.begins[symbol].unsigned_abs() >> FRACTION;
+        let next = self.begins.get(symbol + 1);
+        let end = next.map_or(1 << PRECISION, |next| next.unsigned_abs() >> FRACTION);
+        Interval {
+            begin,
+            frequency: end - begin,
+        }
+    }
+
+    /// The symbol to which a number below the sum of frequencies belongs.
+    #[inline]
+    pub(super) fn symbol(&self, number: u32) -> usize {
+        let past = (number + 1).cast_signed() << FRACTION;
+        let begun = self.begins.iter().map(|&begin| usize::from(begin < past));
+        begun.sum::<usize>() - 1
+    }
+
+    /// A symbol came.
+    #[inline]
+    pub(crate) fn see(&mut self, symbol: usize) {
+        let step = STEPS[usize::from(self.seen)];
+        self.seen += u16::from(usize::from(self.seen) + 1 < STEPS.len());
+        for (place, begin) in self.begins.iter_mut().enumerate() {
+            let way = (goal(place, symbol) << FRACTION) - *begin;
+            *begin += ((way >> 6) * step) >> 4;
+        }
+    }
+
+    /// Whether it has seen less than so many symbols.
+    #[inline]
+    pub(crate) fn has_seen_less_than(&self, symbols: u16) -> bool {
+        self.seen < symbols
+    }
+
+    /// A table that begins with these frequencies, and soon has its own.
+    #[inline]
+    pub(crate) fn child(&self) -> Self {
+        Self {
+            begins: self.begins,
+            seen: self.seen.min(8),
+        }
+    }
+
+    /// The mean of two tables.
+    #[inline]
+    pub(crate) fn with(&self, other: &Self) -> Self {
+        let mut mean = *self;
+        for (begin, other) in mean.begins.iter_mut().zip(&other.begins) {
+            *begin = (*begin + *other) >> 1;
+        }
+        mean
+    }
+}
+
+/// Where a symbol is among the frequencies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Interval {
+    pub(super) begin: u32,
+    pub(super) frequency: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::SplitMix64;
+
+    fn frequencies(table: &AdaptiveTable) -> [u32; SYMBOLS] {
+        let mut end = 0;
+        std::array::from_fn(|symbol| {
+            let interval = table.interval(symbol);
+            assert_eq!(interval.begin, end, "no gap before symbol {symbol}");
+            end += interval.frequency;
+            assert!(symbol + 1 < SYMBOLS || end == 1 << PRECISION);
+            interval.frequency
+        })
+    }
+
+    #[test]
+    fn no_frequency_gets_to_0_and_numbers_find_their_symbols() {
+        let mut random = SplitMix64(1);
+        for skew in 0..40 {
+            let mut table = AdaptiveTable::EVEN;
+            for _ in 0..2000 {
+                let symbol = match random.below(40) < skew {
+                    true => skew % SYMBOLS,
+                    false => random.below(SYMBOLS),
+                };
+                table.see(symbol);
+                let of = frequencies(&table.with(&AdaptiveTable::EVEN.child()));
+                assert!(of.iter().all(|&frequency| frequency > 0));
+            }
+            assert!(frequencies(&table).iter().all(|&frequency| frequency > 0));
+            for number in 0..1 << PRECISION {
+                let symbol = table.symbol(number);
+                let Interval { begin, frequency } = table.interval(symbol);
+                assert!((begin..begin + frequency).contains(&number));
+            }
+        }
+    }
+
+    #[test]
+    fn a_symbol_that_always_comes_costs_next_to_nothing() {
+        let mut table = AdaptiveTable::EVEN;
+        (0..5000).for_each(|_| table.see(5));
+        let frequency = f64::from(table.interval(5).frequency);
+        assert!(-(frequency / 32_768.0).log2() < 0.001, "{frequency}");
+    }
+}

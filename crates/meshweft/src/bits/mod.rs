@@ -1,0 +1,12 @@
+//! Symbols in few bits: tables that follow what comes, and asymmetric numeral systems that code by them.
+//!
+//! Everything is in integers, so a stream is the same on every platform.
+
+mod adaptive_table;
+mod error;
+mod rans;
+pub(crate) mod varint;
+
+pub(crate) use adaptive_table::{AdaptiveTable, SYMBOLS};
+pub use error::{DecodeError, DecodeErrorKind};
+pub(crate) use rans::{RansDecoder, RansEncoder};

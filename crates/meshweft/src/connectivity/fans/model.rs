@@ -1,0 +1,187 @@
+//! What is likely, by what is around.
+
+use super::traversal::{FanTurn, Gap, MOST_NEW, Run};
+use crate::bits::{AdaptiveTable, RansDecoder, RansEncoder, SYMBOLS};
+use crate::index::index32;
+
+/// More known faces at a root, at the first neighbour and at the other end are all the same.
+const MOST_KNOWN: [u32; 3] = [10, 6, 8];
+/// A larger surplus, or shortage, is all the same.
+const MOST_SURPLUS: i32 = 3;
+/// So many symbols are also seen by the table from which others begin.
+const YOUNG: u16 = 40;
+
+/// Reads or writes a symbol by a table.
+pub(super) trait Port {
+    /// The symbol that was read, or the one that was given.
+    fn code(&mut self, table: &AdaptiveTable, symbol: usize) -> usize;
+}
+
+impl Port for RansEncoder {
+    #[inline]
+    fn code(&mut self, table: &AdaptiveTable, symbol: usize) -> usize {
+        self.push(table, symbol);
+        symbol
+    }
+}
+
+impl Port for RansDecoder<'_> {
+    #[inline]
+    fn code(&mut self, table: &AdaptiveTable, _: usize) -> usize {
+        self.pop(table)
+    }
+}
+
+/// Tables for all that is coded.
+#[derive(Debug)]
+pub(super) struct Model {
+    /// Of runs, by how many faces the root has.
+    by_root: Vec<AdaptiveTable>,
+    /// The same, by both ends of the gap too.
+    by_ends: Vec<Option<AdaptiveTable>>,
+    /// The same, by the surplus and one end.
+    by_surplus: Vec<Option<AdaptiveTable>>,
+    /// Of turns, by direction.
+    turns: [AdaptiveTable; 2],
+    /// The same, by both ends of the gap too.
+    turns_by_ends: Vec<Option<AdaptiveTable>>,
+    /// Whether a vertex is new.
+    newness: AdaptiveTable,
+    /// Which vertex, if it is near one of the ends.
+    nearness: AdaptiveTable,
+    /// How many bits a number has, beyond 15 by the second.
+    lengths: [AdaptiveTable; 2],
+}
+
+impl Model {
+    pub(super) fn new() -> Self {
+        let [root, from, to] = MOST_KNOWN.map(|most| most as usize);
+        let surplus = 2 * MOST_SURPLUS.unsigned_abs() as usize + 1;
+        Self {
+            by_root: vec![AdaptiveTable::EVEN; 2 * root],
+            by_ends: vec![None; 2 * root * from * to],
+            by_surplus: vec![None; 2 * root * surplus * to],
+            turns: [AdaptiveTable::EVEN; 2],
+            turns_by_ends: vec![None; 2 * (from + 1) * to],
+            newness: AdaptiveTable::EVEN,
+            nearness: AdaptiveTable::EVEN,
+            lengths: [AdaptiveTable::EVEN; 2],
+        }
+    }
+
+    /// A run; the mean of two tables says what is likely.
+    #[inline]
+    pub(super) fn run(&mut self, port: &mut impl Port, gap: &Gap, run: Run) -> Run {
+        // Which tables.
+        let place = |side: usize| gap.known[side].clamp(1, MOST_KNOWN[side]) as usize - 1;
+        let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
+        let root = usize::from(gap.is_backward) * MOST_KNOWN[0] as usize + place(0);
+        let surplus = gap.surplus.clamp(-MOST_SURPLUS, MOST_SURPLUS) + MOST_SURPLUS;
+        let surpluses = 2 * MOST_SURPLUS.unsigned_abs() as usize + 1;
+        let by_surplus = (root * surpluses + surplus.unsigned_abs() as usize) * tos + place(2);
+
+        let parent = &mut self.by_root[root];
+        let ends = &mut self.by_ends[(root * froms + place(1)) * tos + place(2)];
+        let ends = ends.get_or_insert_with(|| parent.child());
+        let surplus = self.by_surplus[by_surplus].get_or_insert_with(|| parent.child());
+
+        // The symbol.
+        let symbol = 2 * run.new.min(MOST_NEW) + usize::from(run.is_end);
+        let symbol = port.code(&ends.with(surplus), symbol);
+        if ends.has_seen_less_than(YOUNG) {
+            parent.see(symbol);
+        }
+        ends.see(symbol);
+        surplus.see(symbol);
+        Run {
+            new: symbol / 2,
+            is_end: symbol % 2 == 1,
+        }
+    }
+
+    /// A turn; one that is none is a [`FanTurn::Stop`].
+    #[inline]
+    pub(super) fn turn(&mut self, port: &mut impl Port, gap: &Gap, turn: usize) -> FanTurn {
+        let backward = usize::from(gap.is_backward);
+        let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
+        let from = gap.known[1].min(MOST_KNOWN[1]) as usize;
+        let to = gap.known[2].clamp(1, MOST_KNOWN[2]) as usize - 1;
+        let parent = &mut self.turns[backward];
+        let table = &mut self.turns_by_ends[(backward * (froms + 1) + from) * tos + to];
+        let table = table.get_or_insert_with(|| parent.child());
+        let turn = port.code(table, turn);
+        if table.has_seen_less_than(YOUNG) {
+            parent.see(turn);
+        }
+        table.see(turn);
+        FanTurn::ALL.get(turn).copied().unwrap_or(FanTurn::Stop)
+    }
+
+    /// A vertex after the root that was met.
+    pub(super) fn known(
+        &mut self,
+        port: &mut impl Port,
+        root: u32,
+        count: u32,
+        vertex: u32,
+    ) -> u32 {
+        let (after_root, before_last) = (
+            vertex.wrapping_sub(root + 1),
+            (count - 1).wrapping_sub(vertex),
+        );
+        let near = match (after_root, before_last) {
+            (0..8, _) => after_root,
+            (_, 0..7) => 8 + before_last,
+            _ => 15,
+        };
+        let near = port.code(&self.nearness, near as usize);
+        self.nearness.see(near);
+        match index32(near) {
+            near @ 0..8 => root + 1 + near,
+            near @ 8..15 => (count - 1).wrapping_sub(near - 8),
+            _ => (count - 1).wrapping_sub(self.number(port, before_last)),
+        }
+    }
+
+    /// A corner of a face that follows no other.
+    pub(super) fn corner(
+        &mut self,
+        port: &mut impl Port,
+        root: u32,
+        count: u32,
+        vertex: Option<u32>,
+    ) -> Option<u32> {
+        let is_known = port.code(&self.newness, usize::from(vertex.is_some()));
+        self.newness.see(is_known);
+        (is_known != 0).then(|| self.known(port, root, count, vertex.unwrap_or(0)))
+    }
+
+    /// A number: how many bits follow the first one that is set in it plus one, then these.
+    fn number(&mut self, port: &mut impl Port, number: u32) -> u32 {
+        let above = u64::from(number) + 1;
+        let mut length = above.ilog2() as usize;
+        let most = SYMBOLS - 1;
+        let short = port.code(&self.lengths[0], length.min(most));
+        self.lengths[0].see(short);
+        length = match short == most {
+            true => {
+                let more = port.code(&self.lengths[1], length.saturating_sub(most));
+                self.lengths[1].see(more);
+                most + more
+            }
+            false => short,
+        };
+
+        // Four bits a symbol, the last ones first.
+        let mut value = 0_u64;
+        for shift in (0..length).step_by(4) {
+            let width = (length - shift).min(4);
+            let bits = (above >> shift) & ((1 << width) - 1);
+            let bits = usize::try_from(bits).unwrap_or(0);
+            let bits = port.code(&AdaptiveTable::EVEN, bits << (4 - width)) >> (4 - width);
+            value |= (bits as u64) << shift;
+        }
+        let value = (value | 1 << length) - 1;
+        u32::try_from(value).unwrap_or(u32::MAX)
+    }
+}
