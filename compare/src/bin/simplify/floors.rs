@@ -87,6 +87,7 @@ fn row(mesh: &Mesh, attributes: &[Attribute]) -> Result<([usize; 5], usize), Str
         let settings = Collapses {
             effort,
             drop_parts,
+            cross_seams: true,
             ..Collapses::default()
         };
         let built = settings.build(mesh, attributes);

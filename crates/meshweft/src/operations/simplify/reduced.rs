@@ -76,6 +76,8 @@ impl Reduced {
             effort: options.ordering.effort,
             lock_border: options.lock_border || has_other_faces,
             drop_parts: options.drop_parts,
+            // A face never has corners of two parts of a texture.
+            cross_seams: false,
             faces: match options.with_removals || options.levels > 0 {
                 true => 0,
                 false => goal.faces,

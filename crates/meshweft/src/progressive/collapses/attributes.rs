@@ -2,7 +2,7 @@
 
 use super::fan::Fan;
 use super::remaining::RemainingMesh;
-use crate::attribute::{Attribute, Semantic};
+use crate::attribute::{Attribute, ComponentType, Semantic};
 use crate::geometry::double::{cross, dot, sub};
 use crate::geometry::triangle::way_to_triangle;
 use crate::progressive::records::SidePair;
@@ -49,6 +49,13 @@ pub(super) fn moves_a_vertex(attribute: &Attribute) -> bool {
         Semantic::Joints(_) | Semantic::Weights(_) => true,
         _ => false,
     }
+}
+
+/// Whether an attribute has numbers that stand for something, such as a part: one between two others is none.
+pub(super) fn is_a_name(attribute: &Attribute) -> bool {
+    let info = &attribute.info;
+    let is_integer = !matches!(info.component_type, ComponentType::F32 | ComponentType::F64);
+    is_integer && !info.is_normalized && matches!(info.semantic, Semantic::Other(_))
 }
 
 /// All weighed attributes of each vertex, as lengths.

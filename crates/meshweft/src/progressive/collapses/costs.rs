@@ -55,7 +55,7 @@ impl RemovalCosts {
             most_error: settings.error.into(),
             is_limited: false,
             history: vec![0.0; points],
-            sides: SidePairing::new(rest, attributes, lengths, diagonal),
+            sides: SidePairing::new(rest, attributes, lengths, settings.cross_seams, diagonal),
             witnesses: has_witnesses.then(|| Witnesses::new(faces, points)),
             double_area,
             scale: if diagonal > 0.0 {

@@ -12,8 +12,8 @@
 //! Read `build` first, the loop. `remaining` is the mesh that gets smaller, `fan` what is around a point,
 //! `link` what may leave, `queue` the order. Where positions are the same bit for bit, vertices are one
 //! point (`points`), and a point's vertices go together to those of a neighbour (`sides`): each to its partner,
-//! with which it shares a leaving face, or else to the one most like it, which costs at least as much as a
-//! hundredth of the bounding box's diagonal.
+//! with which it shares a leaving face; or else, if seams may be crossed, to the one most like it, which costs at
+//! least as much as a hundredth of the bounding box's diagonal.
 
 mod attributes;
 mod build;

@@ -31,6 +31,9 @@ pub struct Collapses {
     /// Whether a part that cannot be simplified any more may leave as a whole, at its extent as error. The
     /// last part never does.
     pub drop_parts: bool,
+    /// Whether vertices at a seam may go to the other side of another seam where they have no partner, at a price
+    /// that keeps such moves for last. It gets further; a face may then have corners of two parts of a texture.
+    pub cross_seams: bool,
     /// It stops when at most so many faces are left.
     pub faces: usize,
     /// Removals of a larger error are not made, in units of the positions.
@@ -46,6 +49,7 @@ impl Default for Collapses {
             effort: Effort::Fast,
             lock_border: false,
             drop_parts: false,
+            cross_seams: false,
             faces: 0,
             error: f32::INFINITY,
             weights: AttributeWeights::default(),

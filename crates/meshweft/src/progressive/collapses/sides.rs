@@ -1,6 +1,6 @@
 //! The vertices at a point, and where they go.
 
-use super::attributes::{Lengths, moves_a_vertex};
+use super::attributes::{Lengths, is_a_name, moves_a_vertex};
 use super::fan::{Fan, MOST_FACES};
 use super::points::WeldedPoints;
 use super::remaining::RemainingMesh;
@@ -17,6 +17,10 @@ pub(super) struct SidePairing {
     pub(super) lengths: Option<Lengths>,
     /// Of vertices at one point that move together in every pose the first; empty where all do.
     moves_as: Vec<u32>,
+    /// Of vertices with the same names the first; empty where none have any.
+    named_as: Vec<u32>,
+    /// Whether a vertex may go without a partner.
+    cross_seams: bool,
     least_price: f64,
     /// The vertices at the neighbour.
     there: Vec<u32>,
@@ -27,6 +31,7 @@ impl SidePairing {
         rest: &RemainingMesh<'_>,
         attributes: &[&Attribute],
         lengths: Option<Lengths>,
+        cross_seams: bool,
         diagonal: f64,
     ) -> Self {
         let moving = attributes.iter().copied();
@@ -35,9 +40,18 @@ impl SidePairing {
             true => Vec::new(),
             false => WeldedPoints::new(rest.positions(), &moving).same_as,
         };
+        let names = attributes.iter().copied();
+        let names: Vec<&Attribute> = names.filter(|it| is_a_name(it)).collect();
+        let named_as = match rest.is_seamless() || names.is_empty() {
+            true => Vec::new(),
+            // As if all were at one point.
+            false => WeldedPoints::new(&vec![[0.0; 3]; rest.positions().len()], &names).same_as,
+        };
         Self {
             lengths,
             moves_as,
+            named_as,
+            cross_seams,
             least_price: LEAST_PRICE * diagonal,
             there: Vec::new(),
         }
@@ -46,6 +60,11 @@ impl SidePairing {
     /// Whether two vertices at one point are at one point in every pose.
     fn move_alike(&self, a: u32, b: u32) -> bool {
         self.moves_as.is_empty() || self.moves_as[a as usize] == self.moves_as[b as usize]
+    }
+
+    /// Whether two vertices are of the same part, or whatever else is named by numbers.
+    fn are_named_alike(&self, a: u32, b: u32) -> bool {
+        self.named_as.is_empty() || self.named_as[a as usize] == self.named_as[b as usize]
     }
 
     /// How much two vertices differ, as a length.
@@ -59,9 +78,9 @@ impl SidePairing {
     }
 
     /// Pairs each vertex at the point of a fan with one at `to`: the one that has a leaving face in common
-    /// with it. Where a vertex has none or two, its attributes have to change, and the nearest vertex is
-    /// taken. Returns what that costs as a distance, 0 where all have partners; `None` where vertices would
-    /// come apart, or together, in another pose.
+    /// with it. Where a vertex has none or two, and seams may be crossed, its attributes change, and the nearest vertex is
+    /// taken, of those with the same names. Returns what that costs as a distance, 0 where all have partners; `None`
+    /// where there is none, seams are not crossed, or vertices would come apart, or together, in another pose.
     pub(super) fn pair(
         &mut self,
         rest: &mut RemainingMesh<'_>,
@@ -80,7 +99,7 @@ impl SidePairing {
             match pairs.iter_mut().find(|pair| pair.from == from) {
                 Some(pair) if pair.to == to => {}
                 Some(pair) => {
-                    if !self.move_alike(pair.to, to) {
+                    if !self.cross_seams || !self.move_alike(pair.to, to) {
                         return None;
                     }
                     price = price
@@ -105,6 +124,9 @@ impl SidePairing {
             if pairs.iter().any(|pair| pair.from == from) {
                 continue;
             }
+            if !self.cross_seams {
+                return None;
+            }
             let as_one = |pair: &&SidePair| self.move_alike(pair.from, from);
             let guide = pairs[..partners].iter().find(as_one)?.to;
             if self.there.is_empty() {
@@ -112,7 +134,9 @@ impl SidePairing {
             }
             let alike = self.there.iter().copied();
             let alike = alike.filter(|&side| self.move_alike(side, guide));
-            let to = alike.chain([guide]).min_by(|&a, &b| {
+            let alike = alike.chain([guide]);
+            let named = alike.filter(|&side| self.are_named_alike(side, from));
+            let to = named.min_by(|&a, &b| {
                 let [near, far] = [a, b].map(|side| self.difference(from, side));
                 near.total_cmp(&far).then(a.cmp(&b))
             })?;
@@ -130,7 +154,9 @@ impl SidePairing {
         point: u32,
     ) -> Option<u32> {
         rest.put_sides(point, MOST_FACES, &mut self.there);
-        self.there.iter().copied().min_by(|&a, &b| {
+        let there = self.there.iter().copied();
+        let named = there.filter(|&it| self.are_named_alike(side, it));
+        named.min_by(|&a, &b| {
             let apart = [a, b].map(|it| !self.move_alike(side, it));
             let [near, far] = [a, b].map(|it| self.difference(side, it));
             let nearest = near.total_cmp(&far).then(a.cmp(&b));

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Mesh;
-use crate::attribute::{Attribute, Semantic};
+use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use crate::progressive::made::{boxed, grid, hills, somewhere, sphere};
 use crate::progressive::tests::{
     EFFORTS, agrees_with_its_history, at_each_level, coarsest, edges, topology, vertex_count,
@@ -103,6 +103,7 @@ fn seams_do_not_tear() {
     for effort in EFFORTS {
         let progressive = Collapses {
             effort,
+            cross_seams: true,
             ..Collapses::default()
         }
         .build(&mesh, &attributes)
@@ -154,6 +155,7 @@ fn surfaces_of_any_seams_keep_the_laws() {
         let settings = Collapses {
             effort: EFFORTS[random.below(2)],
             lock_border: random.below(4) == 0,
+            cross_seams: random.below(2) == 0,
             ..Collapses::default()
         };
         let progressive = settings.build(&mesh, &attributes).unwrap();
@@ -175,7 +177,11 @@ fn seams_everywhere_do_not_stop_a_surface() {
         &values,
     )];
     let whole = Collapses::default().build(&whole, &[]).unwrap();
-    let progressive = Collapses::default().build(&mesh, &attributes).unwrap();
+    let across = Collapses {
+        cross_seams: true,
+        ..Collapses::default()
+    };
+    let progressive = across.build(&mesh, &attributes).unwrap();
     does_not_tear(&mesh, &progressive);
     let left = |mesh: &ProgressiveMesh| mesh.face_count(mesh.last_level());
     assert!(left(&progressive) <= left(&whole) + 4);
@@ -194,7 +200,11 @@ fn what_moves_apart_is_not_joined() {
     morph.info.morph_target = Some(0);
     let joints = Attribute::of_vertices(Semantic::Joints(0), &apart);
     for attribute in [morph, joints] {
-        let progressive = Collapses::default()
+        let across = Collapses {
+            cross_seams: true,
+            ..Collapses::default()
+        };
+        let progressive = across
             .build(&mesh, std::slice::from_ref(&attribute))
             .unwrap();
         does_not_tear(&mesh, &progressive);
@@ -205,4 +215,31 @@ fn what_moves_apart_is_not_joined() {
             assert!(a == b && b == c, "a face between both halves");
         }
     }
+}
+
+#[test]
+fn a_vertex_does_not_go_to_another_part() {
+    // A vertex a corner, of one of two parts by number: no face gets corners of both.
+    let sheet = hills(8, 8);
+    let (mesh, sides) = split(&sheet, |corner| u32::try_from(corner / 3).unwrap());
+    let part = |side: &u32| u32::from(side % 8 > 3);
+    let info = AttributeInfo::new(
+        Semantic::Other("part".to_owned()),
+        Domain::Vertex,
+        1,
+        ComponentType::U32,
+    );
+    let parts = Attribute::new(info, Values::U32(sides.iter().map(part).collect()));
+    let across = Collapses {
+        cross_seams: true,
+        ..Collapses::default()
+    };
+    let progressive = across.build(&mesh, &[parts]).unwrap();
+    assert!(progressive.last_level() > 0);
+    at_each_level(&progressive, |_, faces| {
+        for face in faces {
+            let [a, b, c] = face.map(|vertex| part(&sides[vertex as usize]));
+            assert!(a == b && b == c, "a face of both parts");
+        }
+    });
 }
