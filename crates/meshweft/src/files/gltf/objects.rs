@@ -28,7 +28,10 @@ pub(super) fn objects(primitives: &Primitives, drawn_by: &[Vec<u32>]) -> Vec<(us
     for meshes in drawn_by {
         for pair in meshes.windows(2) {
             let [a, b] = [pair[0], pair[1]].map(|mesh| root_of(&mut joined, mesh));
-            joined.insert(a.max(b), a.min(b));
+            // One that is its own parent would have no root.
+            if a != b {
+                joined.insert(a.max(b), a.min(b));
+            }
         }
     }
     let mut others_of = BTreeSet::new();
