@@ -3,20 +3,19 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Args;
 use meshweft::CacheModel;
 use meshweft::files::Document;
 use meshweft::operations::{self, OptimizeReport, Options};
 
 use crate::run::arguments::{Reading, Run};
-use crate::run::jobs::{Job, Jobs, names_of};
+use crate::run::jobs::{Job, Jobs};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
-use crate::run::side_file::{MANIFEST, PERMUTATION, PendingFile};
+use crate::run::side_file::PERMUTATION;
 use crate::run::watch::Watch;
 use crate::run::{self, Outcome, output, write};
-use crate::usage::Usage;
 
 #[derive(Debug, Args)]
 pub(crate) struct Optimize {
@@ -48,15 +47,8 @@ pub(crate) fn run(arguments: &Optimize) -> Result<()> {
     // What cannot be done is reported before a file is touched.
     let options = arguments.ordering.options()?;
     let jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
-    if arguments.write_permutation.is_some() && !jobs.is_one_file {
-        return Err(Usage("--write-permutation takes one file at a time".into()).into());
-    }
     if let Some(path) = &arguments.write_permutation {
-        PERMUTATION.check_no_mesh(path, names_of(&jobs.list))?;
-        if let Some(list) = &arguments.run.manifest {
-            PERMUTATION.check_other(path, list, MANIFEST.flag)?;
-        }
-        PERMUTATION.check(path, arguments.run.force)?;
+        write::check_side_file(&PERMUTATION, path, &jobs, &arguments.run)?;
     }
     let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
     let work = |job: &Job| optimize(job, &jobs, &options, shows_bar, arguments);
@@ -84,26 +76,16 @@ fn optimize(
     let mut report = operations::optimize(&mut document, options, &watch)?;
     watch.finish();
 
-    // On the disk before the mesh is, and named after it.
-    let permutation = arguments.write_permutation.as_ref();
-    let permutation = permutation.filter(|_| !arguments.run.dry_run).map(|file| {
-        let pending = PendingFile::new(file, report.permutations_to_json());
-        pending.with_context(|| file.display().to_string())
-    });
-    let permutation = permutation.transpose()?;
-
+    let permutation = || report.permutations_to_json();
+    let beside = arguments.write_permutation.as_deref();
+    let beside = beside.map(|path| (&PERMUTATION, path, &permutation as &dyn Fn() -> String));
+    let to = (&arguments.run, &jobs.outputs);
+    let written = write::write_with_side_file(job, &document, to, report.is_changed(), beside)?;
     let mut renamed = Vec::new();
-    if arguments.run.writes(report.is_changed()) {
-        let written = write::write(job, &document, &arguments.run, &jobs.outputs)?;
+    if let Some(written) = written {
         report.set_output(&job.target, written.bytes);
         report.add_written(&written);
         renamed = write::renamed_lines(job, &written);
-    }
-    if let (Some(pending), Some(file)) = (permutation, &arguments.write_permutation) {
-        // A buffer that was just written may have that name.
-        PERMUTATION.check(file, arguments.run.force)?;
-        let written = pending.commit();
-        written.with_context(|| file.display().to_string())?;
     }
     report.seconds = Some(start.elapsed().as_secs_f64());
 

@@ -16,10 +16,10 @@ use meshweft::operations::{
 
 use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::{Reading, Run};
-use crate::run::jobs::{Job, Jobs, names_of};
+use crate::run::jobs::{Job, Jobs};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
-use crate::run::side_file::{LEVELS, MANIFEST, PLOT, PendingFile, SideFile};
+use crate::run::side_file::{LEVELS, PLOT, SideFile};
 use crate::run::watch::Watch;
 use crate::run::{self, Outcome, output, write};
 use crate::usage::Usage;
@@ -148,15 +148,7 @@ pub(crate) fn run(arguments: &Simplify) -> Result<()> {
     let options = arguments.options()?;
     let jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
     for (path, side_file) in arguments.side_files() {
-        if !jobs.is_one_file {
-            let flag = side_file.flag;
-            return Err(Usage(format!("{flag} takes one file at a time")).into());
-        }
-        side_file.check_no_mesh(path, names_of(&jobs.list))?;
-        if let Some(list) = &arguments.run.manifest {
-            side_file.check_other(path, list, MANIFEST.flag)?;
-        }
-        side_file.check(path, arguments.run.force)?;
+        write::check_side_file(side_file, path, &jobs, &arguments.run)?;
     }
     if let (Some(plot), Some(levels)) = (&arguments.plot, &arguments.write_levels) {
         PLOT.check_other(plot, levels, LEVELS.flag)?;
@@ -187,26 +179,16 @@ fn simplify(
     let mut report = operations::simplify(&mut document, options, &watch)?;
     watch.finish();
 
-    // On the disk before the mesh is, and named after it.
-    let levels = arguments.write_levels.as_ref();
-    let levels = levels.filter(|_| !arguments.run.dry_run).map(|file| {
-        let pending = PendingFile::new(file, report.removals_to_json());
-        pending.with_context(|| file.display().to_string())
-    });
-    let levels = levels.transpose()?;
-
+    let levels = || report.removals_to_json();
+    let beside = arguments.write_levels.as_deref();
+    let beside = beside.map(|path| (&LEVELS, path, &levels as &dyn Fn() -> String));
+    let to = (&arguments.run, &jobs.outputs);
+    let written = write::write_with_side_file(job, &document, to, report.is_changed(), beside)?;
     let mut renamed = Vec::new();
-    if arguments.run.writes(report.is_changed()) {
-        let written = write::write(job, &document, &arguments.run, &jobs.outputs)?;
+    if let Some(written) = written {
         report.set_output(&job.target, written.bytes);
         report.add_written(&written);
         renamed = write::renamed_lines(job, &written);
-    }
-    if let (Some(pending), Some(file)) = (levels, &arguments.write_levels) {
-        // A buffer that was just written may have that name.
-        LEVELS.check(file, arguments.run.force)?;
-        let written = pending.commit();
-        written.with_context(|| file.display().to_string())?;
     }
     if let Some(file) = arguments.plot.as_ref().filter(|_| !arguments.run.dry_run) {
         PLOT.check(file, arguments.run.force)?;

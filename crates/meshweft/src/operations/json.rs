@@ -1,5 +1,7 @@
 //! Reports as JSON: one schema for the program and every binding.
 
+use std::path::Path;
+
 use serde_json::{Map, Value, json};
 
 use super::counts::Counts;
@@ -16,6 +18,28 @@ pub(super) fn head(command: &str) -> Map<String, Value> {
     report.insert("schema".into(), json!(SCHEMA));
     report.insert("command".into(), json!(command));
     report.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));
+    report
+}
+
+/// The beginning of a report on a file that may have been written: where it is, where it went, its sizes
+/// before and after, how many files were copied along, and how long it took.
+pub(super) fn file_head(
+    command: &str,
+    [file, output]: [Option<&Path>; 2],
+    bytes: (u64, Option<u64>),
+    copied: usize,
+    seconds: Option<f64>,
+) -> Map<String, Value> {
+    let name = |path: Option<&Path>| json!(path.map(|path| path.display().to_string()));
+    let mut report = head(command);
+    let members = [
+        ("file", name(file)),
+        ("output", name(output)),
+        ("bytes", json!({"before": bytes.0, "after": bytes.1})),
+        ("copied", json!(copied)),
+        ("seconds", json!(seconds)),
+    ];
+    report.extend(members.map(|(key, value)| (key.to_owned(), value)));
     report
 }
 

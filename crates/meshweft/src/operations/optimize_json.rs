@@ -14,18 +14,15 @@ impl OptimizeReport {
     #[must_use]
     pub fn to_json(&self) -> String {
         let meshes = 0..self.meshes.len();
-        let output = self.output.as_ref().map(|path| path.display().to_string());
         let mode = self.options.greedy.unwrap_or_default().mode;
-        let mut report = json::head("optimize");
-        let mut insert = |key: &str, value: Value| report.insert(key.into(), value);
-        insert("file", json!(self.file.display().to_string()));
-        insert("output", json!(output));
-        insert(
-            "bytes",
-            json!({"before": self.bytes_before, "after": self.bytes_after}),
+        let mut report = json::file_head(
+            "optimize",
+            [Some(&self.file), self.output.as_deref()],
+            (self.bytes_before, self.bytes_after),
+            self.copied,
+            self.seconds,
         );
-        insert("copied", json!(self.copied));
-        insert("seconds", json!(self.seconds));
+        let mut insert = |key: &str, value: Value| report.insert(key.into(), value);
         insert("cache", json!(self.options.target.to_string()));
         insert("effort", json!(self.options.effort.to_string()));
         insert("mode", json!(mode.to_string()));

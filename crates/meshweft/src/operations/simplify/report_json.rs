@@ -12,18 +12,15 @@ impl SimplifyReport {
     /// The report as one line of JSON.
     #[must_use]
     pub fn to_json(&self) -> String {
-        let output = self.output.as_ref().map(|path| path.display().to_string());
         let options = &self.options;
-        let mut report = json::head("simplify");
-        let mut insert = |key: &str, value: Value| report.insert(key.into(), value);
-        insert("file", json!(self.file.display().to_string()));
-        insert("output", json!(output));
-        insert(
-            "bytes",
-            json!({"before": self.bytes_before, "after": self.bytes_after}),
+        let mut report = json::file_head(
+            "simplify",
+            [Some(&self.file), self.output.as_deref()],
+            (self.bytes_before, self.bytes_after),
+            self.copied,
+            self.seconds,
         );
-        insert("copied", json!(self.copied));
-        insert("seconds", json!(self.seconds));
+        let mut insert = |key: &str, value: Value| report.insert(key.into(), value);
         insert("ratio", json!(options.ratio));
         insert("faces", json!(options.faces));
         insert("error", json!(options.error.map(|error| error.to_string())));
