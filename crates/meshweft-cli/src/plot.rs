@@ -60,7 +60,7 @@ pub(crate) struct Axis {
     high: f64,
     /// By the logarithm.
     is_log: bool,
-    /// Lines of the grid, with what stands beside them.
+    /// Lines of the grid, with their labels.
     ticks: Vec<(f64, String)>,
 }
 

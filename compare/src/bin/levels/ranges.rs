@@ -14,7 +14,7 @@ const STEPS: usize = 1000;
 
 pub(crate) fn print(meshes: &[(String, Mesh)]) -> Result<(), String> {
     println!(
-        "\nWhat of an index buffer changes, K = {SIZE}, in the mean of steps of so many records from 50 % of the faces.\n"
+        "\nWhat of an index buffer changes, K = {SIZE}, in the mean of steps of this many records, from 50 % of the faces.\n"
     );
     println!(
         "| mesh | records a step | faces | ranges | ranges, 16 faces between | allocated, bytes |"

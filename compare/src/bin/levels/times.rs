@@ -130,7 +130,7 @@ fn walks(
     samples.map(median)
 }
 
-/// Nanoseconds a record in steps of so many.
+/// Nanoseconds a record, in steps of a number of records.
 fn steps(checkpoints: &Checkpoints<'_>, progressive: &ProgressiveMesh, records: usize) -> [f64; 3] {
     let half = level_of(progressive, 0.5);
     let count = RECORDS.min(progressive.last_level() - half) / records;

@@ -17,7 +17,7 @@ pub(crate) struct AdaptiveTable {
     seen: u16,
 }
 
-/// How far a table moves after so many symbols, in parts of 1,024.
+/// How far a table moves, in parts of 1,024, by the number of symbols that it has seen.
 static STEPS: [i32; 340] = {
     let mut steps = [0; 340];
     let mut seen = 0;
@@ -86,7 +86,7 @@ impl AdaptiveTable {
         }
     }
 
-    /// Whether it has seen less than so many symbols.
+    /// Whether it has seen fewer symbols than this.
     #[inline]
     pub(crate) fn has_seen_less_than(&self, symbols: u16) -> bool {
         self.seen < symbols

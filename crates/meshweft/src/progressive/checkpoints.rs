@@ -191,7 +191,7 @@ fn present(walk: &Walk<'_>) -> (Vec<u32>, Vec<[u32; 3]>) {
     (numbers, faces)
 }
 
-/// What orders a level of so many faces: several of which the best is taken, if it has few.
+/// What orders a level, by its number of faces: several if it has few, of which the best is taken.
 fn tries(optimizer: &Optimizer, faces: usize) -> impl Iterator<Item = Optimizer> {
     let count = match (optimizer.effort, faces) {
         (Effort::Fast, 0..=16_384) => 2,

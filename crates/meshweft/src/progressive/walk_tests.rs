@@ -30,7 +30,7 @@ fn levels(mesh: &ProgressiveMesh) -> Vec<Vec<[u32; 3]>> {
     each.collect()
 }
 
-/// A walk of so many steps, and back to full resolution.
+/// A walk of a number of steps, and back to full resolution.
 fn walk(checkpoints: &Checkpoints<'_>, levels: &[Vec<[u32; 3]>], steps: usize, seed: u64) {
     let mesh = checkpoints.mesh;
     let mut random = SplitMix64(seed);

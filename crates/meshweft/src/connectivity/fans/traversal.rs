@@ -34,9 +34,9 @@ pub(super) const MOST_NEW: usize = 7;
 /// What comes after a run that does not close the gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FanTurn {
-    /// A face with a vertex so many steps back on the front, from where faces go on.
+    /// A face with a vertex this number of steps back on the front, from where faces go on.
     Before(u32),
-    /// A face with a vertex so many steps on, from the other end of the gap.
+    /// A face with a vertex this number of steps on, from the other end of the gap.
     After(u32),
     /// A face with any other vertex that was met.
     Known,

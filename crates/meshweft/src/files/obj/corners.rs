@@ -13,7 +13,7 @@ pub(super) fn corners(source: &[u8], span: &Range<usize>) -> Vec<Range<usize>> {
     tokens.skip(1).collect()
 }
 
-/// What a corner names, where so many lines of each kind stand above it.
+/// What a corner names, by how many lines of each kind are above it.
 pub(super) fn named(token: &[u8], above: [usize; 3]) -> Named {
     let mut named = [0; 3];
     let mut rest = token;

@@ -41,7 +41,7 @@ pub(super) struct ReducedMesh {
 
 /// How far one object is to go.
 pub(super) struct Goal {
-    /// It stops at so many faces.
+    /// It stops at this number of faces.
     pub(super) faces: usize,
     /// From how many points of either surface the error is measured.
     pub(super) samples: usize,

@@ -150,7 +150,7 @@ impl<'a> RemainingMesh<'a> {
         self.uses.get(side as usize).is_none_or(|&uses| uses > 0)
     }
 
-    /// Puts the vertices that the first so many faces at a point have there into `sides`, sorted.
+    /// Puts the vertices at a point into `sides`, sorted: those of its first faces, up to a number of them.
     pub(super) fn put_sides(&mut self, point: u32, faces: usize, sides: &mut Vec<u32>) {
         sides.clear();
         self.visit(point, |face| {
