@@ -2,7 +2,7 @@
 //!
 //! Such a verb has the flags [`Run`] and [`Reading`](arguments::Reading), finds its files with
 //! [`Jobs::new`](jobs::Jobs::new), hands the work on one of them to [`over_files`], and writes with
-//! [`write`](write::write).
+//! [`write_with_side_file`](write::write_with_side_file).
 
 pub(crate) mod arguments;
 mod batch;
