@@ -46,6 +46,7 @@
 pub mod attribute;
 pub mod bits;
 pub mod cache;
+pub mod compression;
 pub mod connectivity;
 mod error;
 mod faces;

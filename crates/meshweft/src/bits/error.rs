@@ -26,11 +26,37 @@ pub enum DecodeErrorKind {
         /// How many it says there are.
         said: usize,
     },
+    /// It does not begin as an archive of meshes does.
+    NoArchive,
+    /// It is not such a stream, or was written by a later version.
+    Unknown {
+        /// What is not known.
+        what: &'static str,
+        /// The number that stands there.
+        found: u64,
+    },
+    /// It says that it has more than [`Limits`](crate::Limits) allow.
+    AboveLimit {
+        /// What there is too much of.
+        what: &'static str,
+        /// How many it says there are.
+        said: u64,
+        /// How many are allowed.
+        limit: usize,
+    },
     /// It names a vertex that cannot be there.
     NoSuchVertex {
         /// The vertex that it names.
         vertex: u32,
     },
+}
+
+impl DecodeError {
+    /// Damage at a byte.
+    pub(crate) fn damaged(byte: usize) -> Self {
+        let kind = DecodeErrorKind::Damaged;
+        Self { byte, kind }
+    }
 }
 
 impl fmt::Display for DecodeError {
@@ -50,6 +76,18 @@ impl fmt::Display for DecodeError {
             DecodeErrorKind::TooMany { what, said } => write!(
                 f,
                 "the stream has more {what} than the {said} that it says. It is damaged: fetch it again"
+            ),
+            DecodeErrorKind::NoArchive => write!(
+                f,
+                "this is not a .mwz file. Give one that was written by compress"
+            ),
+            DecodeErrorKind::Unknown { what, found } => write!(
+                f,
+                "{what} {found} is not known. A later version of meshweft may have written the stream: update, or fetch it again"
+            ),
+            DecodeErrorKind::AboveLimit { what, said, limit } => write!(
+                f,
+                "the stream has {said} {what}, and {limit} are allowed. If you trust it, raise the limit"
             ),
             DecodeErrorKind::NoSuchVertex { vertex } => write!(
                 f,

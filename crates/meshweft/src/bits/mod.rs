@@ -3,10 +3,12 @@
 //! Everything is in integers, so a stream is the same on every platform.
 
 mod adaptive_table;
+mod checksum;
 mod error;
 mod rans;
 pub(crate) mod varint;
 
 pub(crate) use adaptive_table::{AdaptiveTable, SYMBOLS};
+pub(crate) use checksum::crc32;
 pub use error::{DecodeError, DecodeErrorKind};
-pub(crate) use rans::{RansDecoder, RansEncoder};
+pub(crate) use rans::{MOST_BITS, RansDecoder, RansEncoder};

@@ -9,14 +9,24 @@ use super::error::{DecodeError, DecodeErrorKind};
 
 /// States are at least this large.
 const LEAST: u32 = 1 << 16;
+/// Bits that are taken as they are at once.
+pub(crate) const MOST_BITS: u32 = PRECISION;
 /// States in turn.
 const STATES: usize = 2;
 
 /// Collects symbols, and writes them.
 #[derive(Debug, Default)]
 pub(crate) struct RansEncoder {
+    /// Where each begins, and its frequency; the highest bit of the first says that it is of the second kind.
     intervals: Vec<(u16, u16)>,
+    /// What is counted apart.
+    kind: u16,
+    /// About how many bits symbols of either kind took, in parts of 65,536.
+    parts: [u64; 2],
 }
+
+/// The highest bit.
+const SECOND_KIND: u16 = 1 << 15;
 
 impl RansEncoder {
     /// Takes a symbol, with its frequency in a table.
@@ -27,17 +37,44 @@ impl RansEncoder {
             clippy::cast_possible_truncation,
             reason = "below two to the power of 15"
         )]
-        self.intervals.push((begin as u16, frequency as u16));
+        self.intervals
+            .push((begin as u16 | self.kind, frequency as u16));
     }
 
-    /// The bytes, in the order in which they are read.
-    pub(crate) fn finish(self) -> Vec<u8> {
+    /// Takes up to 15 bits as they are.
+    #[inline]
+    pub(crate) fn push_bits(&mut self, count: u32, bits: u32) {
+        debug_assert!((1..=MOST_BITS).contains(&count) && bits >> count == 0);
+        let frequency = 1 << (PRECISION - count);
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "below two to the power of 15"
+        )]
+        self.intervals
+            .push(((bits * frequency) as u16 | self.kind, frequency as u16));
+    }
+
+    /// Symbols from here on are of the first or second kind.
+    #[inline]
+    pub(crate) fn count_as(&mut self, is_second: bool) {
+        self.kind = if is_second { SECOND_KIND } else { 0 };
+    }
+
+    /// About how many bits symbols of either kind took, of all that is finished.
+    pub(crate) fn bits_of_kinds(&self) -> [f64; 2] {
+        self.parts.map(|bits| bits as f64 / 65_536.0)
+    }
+
+    /// The bytes, in the order in which they are read. Nothing is left.
+    pub(crate) fn finish(&mut self) -> Vec<u8> {
         #[expect(clippy::cast_possible_truncation, reason = "the low half of a state")]
         let low = |state: u32| state as u16;
         let mut states = [LEAST; STATES];
         let mut words: Vec<u16> = Vec::with_capacity(self.intervals.len() / 4 + 2 * STATES);
         for (turn, &(begin, frequency)) in self.intervals.iter().enumerate().rev() {
-            let (begin, frequency) = (u32::from(begin), u32::from(frequency));
+            self.parts[usize::from(begin / SECOND_KIND)] += bits_of(frequency);
+            let begin = u32::from(begin & !SECOND_KIND);
+            let frequency = u32::from(frequency);
             let state = &mut states[turn % STATES];
             if u64::from(*state) >= u64::from(frequency) << (32 - PRECISION) {
                 words.push(low(*state));
@@ -48,74 +85,106 @@ impl RansEncoder {
         for state in states.into_iter().rev() {
             words.extend([low(state), low(state >> 16)]);
         }
+        self.intervals.clear();
         let words = words.iter().rev();
         words.flat_map(|word| word.to_le_bytes()).collect()
     }
 }
 
-/// Reads symbols.
-#[derive(Debug, Clone)]
-pub(crate) struct RansDecoder<'a> {
-    /// The state whose turn it is first.
-    states: [u32; STATES],
-    words: std::slice::ChunksExact<'a, u8>,
-    byte_count: usize,
-    /// How many words were asked for that are not there.
-    missing: u32,
+/// How many bits a symbol takes, in parts of 65,536, within a hundredth of a bit.
+fn bits_of(frequency: u16) -> u64 {
+    let whole = frequency.ilog2();
+    // The logarithm of 1 to 2 by a parabola.
+    let part = ((u64::from(frequency) << 16) >> whole) - (1 << 16);
+    let curved = (part * (88_244 - ((22_708 * part) >> 16))) >> 16;
+    (u64::from(PRECISION - whole) << 16) - curved
 }
 
-impl<'a> RansDecoder<'a> {
-    pub(crate) fn new(bytes: &'a [u8]) -> Self {
-        let mut decoder = Self {
-            states: [0; STATES],
-            words: bytes.chunks_exact(2),
-            byte_count: bytes.len(),
-            missing: 0,
-        };
-        for state in 0..STATES {
-            let high = decoder.word();
-            decoder.states[state] = high << 16 | decoder.word();
-        }
+/// Reads symbols.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct RansDecoder {
+    /// The state whose turn it is first.
+    states: [u32; STATES],
+    words: Vec<u16>,
+    /// How many words were asked for.
+    asked: usize,
+    /// Whether there is a byte after the words.
+    is_odd: bool,
+}
+
+impl RansDecoder {
+    #[cfg(test)]
+    fn new(bytes: &[u8]) -> Self {
+        let mut decoder = Self::default();
+        decoder.begin(bytes);
         decoder
+    }
+
+    /// Goes on with other bytes, whatever is left of those before.
+    pub(crate) fn begin(&mut self, bytes: &[u8]) {
+        let words = bytes.chunks_exact(2);
+        self.is_odd = !words.remainder().is_empty();
+        self.words.clear();
+        self.words
+            .extend(words.map(|word| u16::from_le_bytes([word[0], word[1]])));
+        self.asked = 0;
+        for state in 0..STATES {
+            let high = self.word();
+            self.states[state] = high << 16 | self.word();
+        }
     }
 
     #[inline]
     fn word(&mut self) -> u32 {
-        match self.words.next() {
-            Some(word) => u32::from(u16::from_le_bytes([word[0], word[1]])),
-            None => {
-                self.missing += 1;
-                0
-            }
-        }
+        let word = self.words.get(self.asked).copied().unwrap_or(0);
+        self.asked += 1;
+        u32::from(word)
     }
 
     /// The next symbol, by its frequency in a table.
     #[inline]
     pub(crate) fn pop(&mut self, table: &AdaptiveTable) -> usize {
+        let number = self.states[0] & ((1 << PRECISION) - 1);
+        let symbol = table.symbol(number);
+        self.take(table.interval(symbol));
+        symbol
+    }
+
+    /// Up to 15 bits as they were given.
+    #[inline]
+    pub(crate) fn pop_bits(&mut self, count: u32) -> u32 {
+        debug_assert!((1..=MOST_BITS).contains(&count));
+        let frequency = 1 << (PRECISION - count);
+        let bits = (self.states[0] & ((1 << PRECISION) - 1)) / frequency;
+        self.take(Interval {
+            begin: bits * frequency,
+            frequency,
+        });
+        bits
+    }
+
+    /// What was next lies in an interval.
+    #[inline]
+    fn take(&mut self, Interval { begin, frequency }: Interval) {
         let [state, other] = self.states;
         let number = state & ((1 << PRECISION) - 1);
-        let symbol = table.symbol(number);
-        let Interval { begin, frequency } = table.interval(symbol);
         let mut state = frequency * (state >> PRECISION) + number - begin;
         if state < LEAST {
             state = state << 16 | self.word();
         }
         self.states = [other, state];
-        symbol
     }
 
     /// What is wrong at the place where it is now.
     #[cold]
     pub(crate) fn error(&self, kind: DecodeErrorKind) -> DecodeError {
-        let kind = if self.missing > 0 {
-            DecodeErrorKind::EndsEarly
-        } else {
-            kind
-        };
+        let ends_early = self.asked > self.words.len();
         DecodeError {
-            byte: self.byte_count - self.words.len() * 2,
-            kind,
+            byte: 2 * self.asked.min(self.words.len()),
+            kind: match ends_early {
+                true => DecodeErrorKind::EndsEarly,
+                false => kind,
+            },
         }
     }
 
@@ -123,17 +192,17 @@ impl<'a> RansDecoder<'a> {
     /// More was read than is there.
     #[inline]
     pub(crate) fn check(&self) -> Result<(), DecodeError> {
-        match self.missing {
-            0 => Ok(()),
-            _ => Err(self.error(DecodeErrorKind::EndsEarly)),
+        match self.asked <= self.words.len() {
+            true => Ok(()),
+            false => Err(self.error(DecodeErrorKind::EndsEarly)),
         }
     }
 
     /// # Errors
     /// Something is left, or what was read is not what was written.
-    pub(crate) fn finish(self) -> Result<(), DecodeError> {
+    pub(crate) fn finish(&self) -> Result<(), DecodeError> {
         self.check()?;
-        let is_at_end = self.words.len() == 0 && self.byte_count.is_multiple_of(2);
+        let is_at_end = self.asked == self.words.len() && !self.is_odd;
         match is_at_end && self.states == [LEAST; STATES] {
             true => Ok(()),
             false => Err(self.error(DecodeErrorKind::Damaged)),

@@ -1,5 +1,8 @@
 //! Numbers in as many bytes as they need, seven bits in each, the lowest first.
 
+/// The most bytes of a number.
+pub(crate) const LONGEST: usize = 10;
+
 /// Writes a number.
 pub(crate) fn write(bytes: &mut Vec<u8>, mut number: u64) {
     loop {
@@ -10,6 +13,16 @@ pub(crate) fn write(bytes: &mut Vec<u8>, mut number: u64) {
         }
         bytes.push(low | 0x80);
     }
+}
+
+/// A number with a sign as one without: 0, -1, 1, -2, 2 …
+pub(crate) fn zigzag(number: i64) -> u64 {
+    ((number << 1) ^ (number >> 63)).cast_unsigned()
+}
+
+/// The number with a sign.
+pub(crate) fn unzigzag(number: u64) -> i64 {
+    (number >> 1).cast_signed() ^ -(number & 1).cast_signed()
 }
 
 /// Reads a number from the front; `None` if it is cut or above 64 bits.
@@ -32,6 +45,14 @@ pub(crate) fn read(bytes: &mut &[u8]) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn small_numbers_of_either_sign_stay_small() {
+        for (number, unsigned) in [(0, 0), (-1, 1), (1, 2), (i64::MIN, u64::MAX)] {
+            assert_eq!(zigzag(number), unsigned);
+            assert_eq!(unzigzag(unsigned), number);
+        }
+    }
 
     #[test]
     fn numbers_come_back_in_as_few_bytes_as_they_need() {

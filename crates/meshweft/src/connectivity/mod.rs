@@ -16,6 +16,8 @@
 mod fans;
 mod first_vertex;
 mod minimum_time;
+#[cfg(test)]
+pub(crate) mod soups;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -23,6 +25,7 @@ mod trimmed_list_code;
 mod trimmed_lists;
 
 pub use fans::FanCode;
+pub(crate) use fans::{BlockReader, BlockSize, Blocks, Port, VertexCoder};
 pub use first_vertex::FirstVertex;
 pub use minimum_time::{MinimumTimeRendering, RenderStep};
 pub use sweep::buffer_bound;

@@ -2,6 +2,7 @@
 
 mod deviation;
 pub(crate) mod double;
+mod lattice;
 mod normals;
 mod samples;
 mod surface;
@@ -9,6 +10,7 @@ pub(crate) mod triangle;
 mod vector;
 
 pub use deviation::{Deviation, Distances, deviation};
+pub use lattice::Lattice;
 pub use normals::vertex_normals;
 pub use surface::{Nearest, Surface};
 pub(crate) use vector::place_bits;

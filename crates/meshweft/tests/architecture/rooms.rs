@@ -7,7 +7,7 @@ use crate::sources::Sources;
 
 /// The rooms from the ground up, with the groups of rooms that each may name beside itself: only
 /// such as stand above it in this list, so that every arrow points one way.
-const ROOMS: [(&str, &[&[&str]]); 21] = [
+const ROOMS: [(&str, &[&[&str]]); 22] = [
     ("error", &[]),
     ("index", &[&["error"]]),
     ("limits", &[BOUNDS]),
@@ -29,6 +29,7 @@ const ROOMS: [(&str, &[&[&str]]); 21] = [
     // Its sequences start from orders.
     ("progressive", &[GROUND, VALUES, ALGORITHMS, &["order"]]),
     ("connectivity", &[GROUND, VALUES, &["bits", "topology"]]),
+    ("compression", &[GROUND, VALUES, &["bits", "connectivity"]]),
     // Readers and writers know no algorithm, and no algorithm knows them.
     ("files", &[GROUND, VALUES]),
     // The only place that joins both.
@@ -38,7 +39,13 @@ const ROOMS: [(&str, &[&[&str]]); 21] = [
             GROUND,
             VALUES,
             ALGORITHMS,
-            &["order", "progressive", "connectivity", "files"],
+            &[
+                "order",
+                "progressive",
+                "compression",
+                "connectivity",
+                "files",
+            ],
         ],
     ),
 ];

@@ -3,29 +3,35 @@
 use super::known_faces::KnownFaces;
 use super::model::Model;
 use super::traversal::{FanTurn, Fans, Gap, Run};
+use super::vertex_coder::VertexCoder;
 use crate::bits::{DecodeError, DecodeErrorKind, RansDecoder};
 
 /// The faces so far.
-pub(super) struct FanDecoder<'a> {
-    /// The roots that have faces which follow no others, rising.
-    more: std::vec::IntoIter<u32>,
+#[derive(Debug)]
+pub(super) struct FanDecoder<V> {
+    /// The roots that have faces which follow no others, rising, and how many of them are done.
+    pub(super) more: Vec<u32>,
+    pub(super) passed: usize,
     pub(super) faces: Vec<[u32; 3]>,
     model: Model,
-    pub(super) port: RansDecoder<'a>,
+    pub(super) at_vertices: V,
+    pub(super) port: RansDecoder,
 }
 
-impl<'a> FanDecoder<'a> {
-    pub(super) fn new(more: Vec<u32>, port: RansDecoder<'a>) -> Self {
+impl<V: VertexCoder> FanDecoder<V> {
+    pub(super) fn new(at_vertices: V) -> Self {
         Self {
-            more: more.into_iter(),
+            more: Vec::new(),
+            passed: 0,
             faces: Vec::new(),
             model: Model::new(),
-            port,
+            at_vertices,
+            port: RansDecoder::default(),
         }
     }
 }
 
-impl Fans for FanDecoder<'_> {
+impl<V: VertexCoder> Fans for FanDecoder<V> {
     fn begin_part(&mut self) {}
 
     fn begin_root(&mut self, _: u32) {}
@@ -50,15 +56,18 @@ impl Fans for FanDecoder<'_> {
 
     #[inline]
     fn has_more(&mut self, root: u32) -> bool {
-        let has_more = self.more.as_slice().first() == Some(&root);
-        if has_more {
-            self.more.next();
-        }
+        let has_more = self.more.get(self.passed) == Some(&root);
+        self.passed += usize::from(has_more);
         has_more
     }
 
     fn corner(&mut self, root: u32, _: usize, count: u32) -> Option<u32> {
         self.model.corner(&mut self.port, root, count, None)
+    }
+
+    #[inline]
+    fn vertex(&mut self, vertex: u32, near: [u32; 3]) {
+        self.at_vertices.code(&mut self.port, vertex, near);
     }
 
     #[inline]

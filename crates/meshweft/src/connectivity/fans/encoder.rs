@@ -4,13 +4,14 @@ use super::at_root::{AtRoot, Rank, RootFace};
 use super::known_faces::{KnownFaces, NONE};
 use super::model::Model;
 use super::traversal::{FanTurn, Fans, Gap, MOST_NEW, Run};
+use super::vertex_coder::VertexCoder;
 use crate::bits::{DecodeError, DecodeErrorKind, RansEncoder};
-use crate::faces::turned;
+use crate::faces::{Faces, turned};
 use crate::index::index32;
 use crate::topology::Adjacency;
 
 /// The faces and what is left of them.
-pub(super) struct FanEncoder<'a> {
+pub(super) struct FanEncoder<'a, V> {
     faces: &'a [[u32; 3]],
     adjacency: Adjacency,
     is_drawn: Vec<bool>,
@@ -33,12 +34,13 @@ pub(super) struct FanEncoder<'a> {
     pub(super) drawn: Vec<u32>,
     pub(super) rotations: Vec<u8>,
     model: Model,
+    at_vertices: V,
     pub(super) port: RansEncoder,
 }
 
-impl<'a> FanEncoder<'a> {
+impl<'a, V: VertexCoder> FanEncoder<'a, V> {
     /// Faces without repeated corners; the first part begins with a vertex if it has faces.
-    pub(super) fn new(faces: crate::faces::Faces<'a>, first_vertex: u32) -> Self {
+    pub(super) fn new(faces: Faces<'a>, first_vertex: u32, at_vertices: V) -> Self {
         Self {
             faces: faces.as_slice(),
             adjacency: Adjacency::new(faces),
@@ -54,6 +56,7 @@ impl<'a> FanEncoder<'a> {
             drawn: Vec::with_capacity(faces.len()),
             rotations: Vec::with_capacity(faces.len()),
             model: Model::new(),
+            at_vertices,
             port: RansEncoder::default(),
         }
     }
@@ -66,8 +69,17 @@ impl<'a> FanEncoder<'a> {
         self.at_root.meet(vertex, before, after, |it| rank(new, it));
     }
 
-    fn is_new(&self, vertex: u32) -> bool {
+    pub(super) fn is_new(&self, vertex: u32) -> bool {
         self.new[vertex as usize] == NONE
+    }
+
+    /// Codes what belongs to a vertex that has a number.
+    #[inline]
+    pub(super) fn code_vertex(&mut self, vertex: u32, near: [u32; 3]) {
+        let source = self.old[vertex as usize];
+        self.port.count_as(true);
+        self.at_vertices.code(&mut self.port, source, near);
+        self.port.count_as(false);
     }
 
     /// The vertex to which a face leads.
@@ -100,7 +112,7 @@ fn rank(new: &[u32], vertex: u32) -> Rank {
     }
 }
 
-impl Fans for FanEncoder<'_> {
+impl<V: VertexCoder> Fans for FanEncoder<'_, V> {
     fn begin_part(&mut self) {
         let cannot =
             |it: &Self, vertex: u32| !it.is_new(vertex) || it.adjacency.degree(vertex) == 0;
@@ -143,7 +155,7 @@ impl Fans for FanEncoder<'_> {
                 self.draw(place);
                 run.new += 1;
                 neighbour = vertex;
-            } else if vertex == end && vertex != neighbour && !gap.is_backward {
+            } else if vertex == end && vertex != neighbour && gap.can_close() {
                 self.draw(place);
                 run.is_end = true;
                 break;
@@ -152,7 +164,7 @@ impl Fans for FanEncoder<'_> {
                 break;
             }
         }
-        run.is_end |= gap.is_backward && self.chosen.is_none();
+        run.is_end |= !gap.can_close() && self.chosen.is_none();
         self.model.run(&mut self.port, gap, run)
     }
 
@@ -209,6 +221,10 @@ impl Fans for FanEncoder<'_> {
             self.draw(place);
         }
         self.model.corner(&mut self.port, root, count, number)
+    }
+
+    fn vertex(&mut self, vertex: u32, near: [u32; 3]) {
+        self.code_vertex(vertex, near);
     }
 
     fn face(&mut self, _: [u32; 3]) {}

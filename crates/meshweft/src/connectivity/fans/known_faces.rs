@@ -15,6 +15,8 @@ pub(super) struct Path {
     pub(super) start: u32,
     /// The neighbour after the last face.
     pub(super) end: u32,
+    /// The neighbour between the first face and the next one: the third vertex of the first face.
+    pub(super) inner: u32,
     /// How many faces; 0 for no path.
     pub(super) faces: u32,
     /// The place of the vertex's next path among the others.
@@ -25,28 +27,43 @@ impl Path {
     const NO: Self = Self {
         start: NONE,
         end: NONE,
+        inner: NONE,
         faces: 0,
         next: NONE,
     };
 
     fn of_a_face(start: u32, end: u32) -> Self {
-        let (faces, next) = (1, NONE);
         Self {
             start,
             end,
-            faces,
-            next,
+            inner: end,
+            faces: 1,
+            next: NONE,
         }
     }
 }
 
-/// The open paths of all vertices. A path that closes is complete, and forgotten.
+/// What is known around a vertex.
+#[derive(Debug, Clone, Copy)]
+struct VertexPaths {
+    /// Its first path.
+    path: Path,
+    /// How many faces its neighbours have that were the root, over six each.
+    surplus: i8,
+}
+
+/// The open paths of all vertices that were met and were not the root yet, and of the root. A path that closes is
+/// complete, and forgotten.
 ///
 /// A vertex has more than one where two parts of the front touch. The first is kept in place, as nearly all
 /// vertices have no other.
 #[derive(Debug)]
 pub(super) struct KnownFaces {
-    first: Vec<Path>,
+    /// A ring: a power of two of places, each vertex at its number without the high bits.
+    around: Vec<VertexPaths>,
+    /// The first vertex that is kept.
+    root: u32,
+    vertex_count: u32,
     others: Vec<Path>,
     /// The first place that is free among the others; the next one is in `next`.
     free: u32,
@@ -54,36 +71,156 @@ pub(super) struct KnownFaces {
 
 impl KnownFaces {
     pub(super) fn new() -> Self {
+        const NOTHING: VertexPaths = VertexPaths {
+            path: Path::NO,
+            surplus: 0,
+        };
         Self {
-            first: Vec::new(),
+            around: vec![NOTHING; 16],
+            root: 0,
+            vertex_count: 0,
             others: Vec::new(),
             free: NONE,
         }
     }
 
+    /// The place of a vertex that is kept.
+    #[inline]
+    fn place(&self, vertex: u32) -> usize {
+        debug_assert!(self.is_kept(vertex), "vertex {vertex}");
+        vertex as usize & (self.around.len() - 1)
+    }
+
+    /// Whether a vertex was met and was not the root before.
+    #[inline]
+    pub(super) fn is_kept(&self, vertex: u32) -> bool {
+        (self.root..self.vertex_count).contains(&vertex)
+    }
+
+    #[inline]
+    fn path(&self, vertex: u32) -> &Path {
+        &self.around[self.place(vertex)].path
+    }
+
+    #[inline]
+    fn path_mut(&mut self, vertex: u32) -> &mut Path {
+        let place = self.place(vertex);
+        &mut self.around[place].path
+    }
+
     /// A vertex without faces.
     #[inline]
     pub(super) fn add_vertex(&mut self) {
-        self.first.push(Path::NO);
+        self.add_vertex_with(Path::NO);
+    }
+
+    #[inline]
+    fn add_vertex_with(&mut self, path: Path) {
+        if (self.vertex_count - self.root) as usize == self.around.len() {
+            self.grow();
+        }
+        let vertex = self.vertex_count;
+        self.vertex_count += 1;
+        let place = self.place(vertex);
+        self.around[place] = VertexPaths { path, surplus: 0 };
+    }
+
+    #[cold]
+    fn grow(&mut self) {
+        let mut wider = self.around.clone();
+        wider.extend_from_slice(&self.around);
+        for vertex in self.root..self.vertex_count {
+            wider[vertex as usize & (2 * self.around.len() - 1)] = self.around[self.place(vertex)];
+        }
+        self.around = wider;
+    }
+
+    /// The root is complete; the next vertex is the root.
+    #[inline]
+    pub(super) fn next_root(&mut self) {
+        self.root += 1;
     }
 
     /// How many vertices there are.
     #[inline]
     pub(super) fn vertex_count(&self) -> u32 {
-        index32(self.first.len())
+        self.vertex_count
     }
 
     /// The first path of a vertex, if it has one.
     #[inline]
     pub(super) fn first(&self, vertex: u32) -> Option<Path> {
-        let path = self.first[vertex as usize];
+        let path = *self.path(vertex);
         (path.faces > 0).then_some(path)
     }
 
-    /// How many faces the first path of a vertex has.
+    /// How many faces the first path of a vertex has; 0 for one that was the root.
     #[inline]
     pub(super) fn faces(&self, vertex: u32) -> u32 {
-        self.first[vertex as usize].faces
+        match self.is_kept(vertex) {
+            true => self.path(vertex).faces,
+            false => 0,
+        }
+    }
+
+    /// How many faces its neighbours have that were the root, over six each.
+    #[inline]
+    pub(super) fn surplus(&self, vertex: u32) -> i32 {
+        i32::from(self.around[self.place(vertex)].surplus)
+    }
+
+    /// A neighbour that was the root has some faces over six.
+    #[inline]
+    pub(super) fn add_surplus(&mut self, vertex: u32, over: i8) {
+        if self.is_kept(vertex) {
+            let place = self.place(vertex);
+            let surplus = &mut self.around[place].surplus;
+            *surplus = surplus.saturating_add(over);
+        }
+    }
+
+    /// Faces between the root and new vertices, the first one after `from`, which is the end of a path of the root;
+    /// with `closes`, also a last face to that vertex.
+    #[inline]
+    pub(super) fn add_fan(&mut self, root: u32, from: u32, new: u32, closes: Option<u32>) {
+        let mut before = from;
+        let last = self.vertex_count + new;
+        if self.vertex_count < last {
+            self.join(from, self.vertex_count, root);
+        }
+        while self.vertex_count < last {
+            let vertex = self.vertex_count;
+            self.join(root, before, vertex);
+            let is_last = vertex + 1 == last;
+            self.add_vertex_with(match (is_last, closes) {
+                (true, None) => Path::of_a_face(root, before),
+                (_, to) => Path {
+                    start: to.filter(|_| is_last).unwrap_or(vertex + 1),
+                    end: before,
+                    inner: root,
+                    faces: 2,
+                    next: NONE,
+                },
+            });
+            before = vertex;
+        }
+        if let Some(to) = closes {
+            self.join(root, before, to);
+            self.join(to, root, before);
+            if new == 0 {
+                self.join(from, to, root);
+            }
+        }
+    }
+
+    /// The third vertex of the known face with an edge from a vertex to another: [`NONE`] if that is not known.
+    #[inline]
+    pub(super) fn third(&self, vertex: u32, start: u32) -> u32 {
+        let path = self.path(vertex);
+        match path.start == start {
+            true => path.inner,
+            false => self.starting(vertex, start).map_or(NONE, |path| path.inner),
+        }
     }
 
     fn all(&self, vertex: u32) -> impl Iterator<Item = Path> + '_ {
@@ -107,7 +244,10 @@ impl KnownFaces {
     /// known.
     #[inline]
     pub(super) fn before_on_front(&self, vertex: u32, after: u32) -> u32 {
-        let path = self.first[vertex as usize];
+        if !self.is_kept(vertex) {
+            return NONE;
+        }
+        let path = *self.path(vertex);
         if path.next == NONE {
             return path.end;
         }
@@ -118,7 +258,10 @@ impl KnownFaces {
     /// The vertex after `vertex` on the front, where `before` precedes it there.
     #[inline]
     pub(super) fn after_on_front(&self, vertex: u32, before: u32) -> u32 {
-        let path = self.first[vertex as usize];
+        if !self.is_kept(vertex) {
+            return NONE;
+        }
+        let path = *self.path(vertex);
         if path.next == NONE {
             return path.start;
         }
@@ -137,7 +280,7 @@ impl KnownFaces {
     /// A face leads from one neighbour of a vertex to another.
     #[inline]
     fn join(&mut self, vertex: u32, from: u32, to: u32) {
-        let path = &mut self.first[vertex as usize];
+        let path = self.path_mut(vertex);
         if path.next != NONE {
             return self.join_one_of_several(vertex, from, to);
         }
@@ -149,6 +292,7 @@ impl KnownFaces {
             }
             (false, true) => {
                 path.start = from;
+                path.inner = to;
                 path.faces += 1;
             }
             (false, false) if path.faces == 0 => *path = Path::of_a_face(from, to),
@@ -191,6 +335,7 @@ impl KnownFaces {
             (None, Some(after)) => {
                 let path = self.at(vertex, after);
                 path.start = from;
+                path.inner = to;
                 path.faces += 1;
             }
             (None, None) => self.append(vertex, Path::of_a_face(from, to)),
@@ -200,7 +345,7 @@ impl KnownFaces {
     /// A path by its place among the others; [`NONE`] is the first.
     fn at(&mut self, vertex: u32, place: u32) -> &mut Path {
         match place {
-            NONE => &mut self.first[vertex as usize],
+            NONE => self.path_mut(vertex),
             place => &mut self.others[place as usize],
         }
     }
@@ -235,12 +380,12 @@ impl KnownFaces {
         let mut gone = place;
         if place == NONE {
             // The second one moves to the first place.
-            gone = self.first[vertex as usize].next;
+            gone = self.path(vertex).next;
             if gone == NONE {
-                self.first[vertex as usize] = Path::NO;
+                *self.path_mut(vertex) = Path::NO;
                 return;
             }
-            self.first[vertex as usize] = self.others[gone as usize];
+            *self.path_mut(vertex) = self.others[gone as usize];
         } else {
             let mut before = NONE;
             while self.at(vertex, before).next != gone {

@@ -12,9 +12,11 @@ const MOST_SURPLUS: i32 = 3;
 const YOUNG: u16 = 40;
 
 /// Reads or writes a symbol by a table.
-pub(super) trait Port {
+pub(crate) trait Port {
     /// The symbol that was read, or the one that was given.
     fn code(&mut self, table: &AdaptiveTable, symbol: usize) -> usize;
+    /// Up to 15 bits that were read, or those that were given.
+    fn bits(&mut self, count: u32, bits: u32) -> u32;
 }
 
 impl Port for RansEncoder {
@@ -23,12 +25,23 @@ impl Port for RansEncoder {
         self.push(table, symbol);
         symbol
     }
+
+    #[inline]
+    fn bits(&mut self, count: u32, bits: u32) -> u32 {
+        self.push_bits(count, bits);
+        bits
+    }
 }
 
-impl Port for RansDecoder<'_> {
+impl Port for RansDecoder {
     #[inline]
     fn code(&mut self, table: &AdaptiveTable, _: usize) -> usize {
         self.pop(table)
+    }
+
+    #[inline]
+    fn bits(&mut self, count: u32, _: u32) -> u32 {
+        self.pop_bits(count)
     }
 }
 
@@ -59,10 +72,10 @@ impl Model {
         let surplus = 2 * MOST_SURPLUS.unsigned_abs() as usize + 1;
         Self {
             by_root: vec![AdaptiveTable::EVEN; 2 * root],
-            by_ends: vec![None; 2 * root * from * to],
-            by_surplus: vec![None; 2 * root * surplus * to],
+            by_ends: vec![None; 2 * root * from * (to + 1)],
+            by_surplus: vec![None; 2 * root * surplus * (to + 1)],
             turns: [AdaptiveTable::EVEN; 2],
-            turns_by_ends: vec![None; 2 * (from + 1) * to],
+            turns_by_ends: vec![None; 2 * (from + 1) * (to + 1)],
             newness: AdaptiveTable::EVEN,
             nearness: AdaptiveTable::EVEN,
             lengths: [AdaptiveTable::EVEN; 2],
@@ -75,13 +88,15 @@ impl Model {
         // Which tables.
         let place = |side: usize| gap.known[side].clamp(1, MOST_KNOWN[side]) as usize - 1;
         let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
+        let tos = tos + 1;
+        let to = gap.known[2].min(MOST_KNOWN[2]) as usize;
         let root = usize::from(gap.is_backward) * MOST_KNOWN[0] as usize + place(0);
         let surplus = gap.surplus.clamp(-MOST_SURPLUS, MOST_SURPLUS) + MOST_SURPLUS;
         let surpluses = 2 * MOST_SURPLUS.unsigned_abs() as usize + 1;
-        let by_surplus = (root * surpluses + surplus.unsigned_abs() as usize) * tos + place(2);
+        let by_surplus = (root * surpluses + surplus.unsigned_abs() as usize) * tos + to;
 
         let parent = &mut self.by_root[root];
-        let ends = &mut self.by_ends[(root * froms + place(1)) * tos + place(2)];
+        let ends = &mut self.by_ends[(root * froms + place(1)) * tos + to];
         let ends = ends.get_or_insert_with(|| parent.child());
         let surplus = self.by_surplus[by_surplus].get_or_insert_with(|| parent.child());
 
@@ -105,9 +120,9 @@ impl Model {
         let backward = usize::from(gap.is_backward);
         let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
         let from = gap.known[1].min(MOST_KNOWN[1]) as usize;
-        let to = gap.known[2].clamp(1, MOST_KNOWN[2]) as usize - 1;
+        let to = gap.known[2].min(MOST_KNOWN[2]) as usize;
         let parent = &mut self.turns[backward];
-        let table = &mut self.turns_by_ends[(backward * (froms + 1) + from) * tos + to];
+        let table = &mut self.turns_by_ends[(backward * (froms + 1) + from) * (tos + 1) + to];
         let table = table.get_or_insert_with(|| parent.child());
         let turn = port.code(table, turn);
         if table.has_seen_less_than(YOUNG) {

@@ -2,6 +2,7 @@
 
 use super::known_faces::{KnownFaces, NONE, Path};
 use crate::bits::{DecodeError, DecodeErrorKind};
+use crate::index::index32;
 
 /// What a vertex sees of the next gap around it: the neighbour from which faces go on, and the one at which
 /// they may arrive.
@@ -20,8 +21,8 @@ pub(super) struct Gap {
     pub(super) surplus: i32,
 }
 
-/// Faces with new vertices, one after the other, and whether the gap is closed then: for a backward walk,
-/// whether it ends.
+/// Faces with new vertices, one after the other, and whether the gap is closed then: where it
+/// [cannot be](Gap::can_close), whether nothing follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Run {
     pub(super) new: usize,
@@ -103,6 +104,10 @@ pub(super) trait Fans {
     fn has_more(&mut self, root: u32) -> bool;
     /// The other vertices of the first of these, 0 and 1: `None` for a new one.
     fn corner(&mut self, root: u32, which: usize, count: u32) -> Option<u32>;
+    /// A vertex was met: what is coded with it follows, near three vertices. See [`VertexCoder::code`].
+    ///
+    /// [`VertexCoder::code`]: super::vertex_coder::VertexCoder::code
+    fn vertex(&mut self, vertex: u32, near: [u32; 3]);
     /// A face is complete.
     fn face(&mut self, face: [u32; 3]);
     /// Whether it can go on.
@@ -112,12 +117,12 @@ pub(super) trait Fans {
 }
 
 /// The state that both sides have.
+#[derive(Debug)]
 pub(super) struct Traversal<F> {
     pub(super) fans: F,
-    known: KnownFaces,
-    /// See [`Gap::surplus`].
-    surplus: Vec<i8>,
-    /// The neighbours of the root that faces of it have named.
+    pub(super) known: KnownFaces,
+    root: u32,
+    /// The neighbours of the root that faces of it have named, but for new ones.
     named: Vec<u32>,
     counts: [usize; 2],
     faces_left: usize,
@@ -128,48 +133,61 @@ impl<F: Fans> Traversal<F> {
         Self {
             fans,
             known: KnownFaces::new(),
-            surplus: Vec::new(),
+            root: 0,
             named: Vec::new(),
             counts: [face_count, vertex_count],
             faces_left: face_count,
         }
     }
 
-    /// Goes through all faces; returns how many vertices they have.
-    pub(super) fn go(&mut self) -> Result<u32, DecodeError> {
-        let mut root = 0;
-        while self.faces_left > 0 {
+    /// So many of the faces are not in fans.
+    pub(super) fn leave_out(&mut self, faces: usize) -> Result<(), DecodeError> {
+        let left = self.faces_left.checked_sub(faces);
+        self.faces_left = left.ok_or_else(|| self.too_many(true))?;
+        Ok(())
+    }
+
+    /// The next vertex whose faces are drawn.
+    pub(super) fn root(&self) -> u32 {
+        self.root
+    }
+
+    pub(super) fn is_complete(&self) -> bool {
+        self.faces_left == 0
+    }
+
+    /// Goes through the faces of root after root, until there were enough, or none is left.
+    pub(super) fn go(&mut self, enough: usize) -> Result<(), DecodeError> {
+        let end = self.faces_left.saturating_sub(enough);
+        while self.faces_left > end {
+            let root = self.root;
             let begins = root == self.known.vertex_count();
             if begins {
-                self.new_vertex()?;
+                let vertex = self.new_vertex()?;
                 self.fans.begin_part();
+                self.fans.vertex(vertex, [vertex.saturating_sub(1); 3]);
             }
             self.fans.begin_root(root);
             self.go_around(root, begins)?;
             self.fans.check()?;
-            root += 1;
+            self.known.next_root();
+            self.root += 1;
         }
-        Ok(self.known.vertex_count())
+        Ok(())
     }
 
-    #[inline]
     fn new_vertex(&mut self) -> Result<u32, DecodeError> {
         let vertex = self.known.vertex_count();
-        let said = self.counts[1];
-        if vertex as usize >= said {
-            let what = "vertices";
-            return Err(self.fans.error(DecodeErrorKind::TooMany { what, said }));
+        if vertex as usize >= self.counts[1] {
+            return Err(self.too_many(false));
         }
         self.known.add_vertex();
-        self.surplus.push(0);
         Ok(vertex)
     }
 
-    #[inline]
     fn new_face(&mut self, face: [u32; 3]) -> Result<(), DecodeError> {
         if self.faces_left == 0 {
-            let (what, said) = ("faces", self.counts[0]);
-            return Err(self.fans.error(DecodeErrorKind::TooMany { what, said }));
+            return Err(self.too_many(true));
         }
         self.faces_left -= 1;
         self.known.add_face(face);
@@ -177,10 +195,20 @@ impl<F: Fans> Traversal<F> {
         Ok(())
     }
 
+    #[cold]
+    fn too_many(&self, faces: bool) -> DecodeError {
+        let (what, said) = match faces {
+            true => ("faces", self.counts[0]),
+            false => ("vertices", self.counts[1]),
+        };
+        self.fans.error(DecodeErrorKind::TooMany { what, said })
+    }
+
     /// All faces of a root that are not known yet.
     #[inline]
     fn go_around(&mut self, root: u32, begins: bool) -> Result<(), DecodeError> {
         self.named.clear();
+        let first_new = self.known.vertex_count();
         let known = self.known.faces(root);
         let left = self.faces_left;
         if begins {
@@ -202,9 +230,9 @@ impl<F: Fans> Traversal<F> {
         // How many faces it has is worth knowing at its neighbours.
         let faces = known as usize + (left - self.faces_left);
         let over = i8::try_from(faces.min(12)).unwrap_or(0) - 6;
-        for &neighbour in &self.named {
-            let surplus = &mut self.surplus[neighbour as usize];
-            *surplus = surplus.saturating_add(over);
+        let new = first_new..self.known.vertex_count();
+        for neighbour in self.named.drain(..).chain(new) {
+            self.known.add_surplus(neighbour, over);
         }
         Ok(())
     }
@@ -222,7 +250,11 @@ impl<F: Fans> Traversal<F> {
     fn corner(&mut self, root: u32, which: usize) -> Result<u32, DecodeError> {
         let count = self.known.vertex_count();
         match self.fans.corner(root, which, count) {
-            None => self.new_vertex(),
+            None => {
+                let vertex = self.new_vertex()?;
+                self.fans.vertex(vertex, [root; 3]);
+                Ok(vertex)
+            }
             Some(vertex) if vertex > root && vertex < count => Ok(vertex),
             Some(vertex) => Err(self.no_such(vertex)),
         }
@@ -234,26 +266,19 @@ impl<F: Fans> Traversal<F> {
         self.named.extend([path.end, path.start]);
         for is_backward in [false, true] {
             loop {
+                // A neighbour that was the root has all its faces: none goes on from there.
                 let (from, to) = match is_backward {
                     false => (path.end, path.start),
                     true => (path.start, path.end),
                 };
+                if from < root {
+                    break;
+                }
                 let mut gap = self.gap(root, from, to, path.faces, is_backward);
                 let run = self.fans.run(&gap);
-                for _ in 0..run.new {
-                    let vertex = self.new_vertex()?;
-                    self.named.push(vertex);
-                    self.new_face(gap.face(vertex))?;
-                    gap.from = vertex;
-                }
-                if run.is_end && !is_backward {
-                    // Between two different ends, or the last face was the first.
-                    if gap.from == gap.to {
-                        return Err(self.no_such(gap.to));
-                    }
-                    return self.new_face(gap.face(to));
-                }
-                if self.faces_left == 0 {
+                let closes = run.is_end && gap.can_close();
+                self.add_run(&mut gap, run.new, closes)?;
+                if closes || self.faces_left == 0 {
                     return Ok(());
                 }
                 let stops = run.is_end || !self.take_turn(&mut gap, run)?;
@@ -273,6 +298,49 @@ impl<F: Fans> Traversal<F> {
             }
         }
         self.known.forget(root, path.end);
+        Ok(())
+    }
+
+    /// Faces with new vertices, and the one that closes the gap.
+    #[inline]
+    fn add_run(&mut self, gap: &mut Gap, new: usize, closes: bool) -> Result<(), DecodeError> {
+        // A gap between two different ends is closed, or the last face was the first.
+        if closes && new == 0 && gap.from == gap.to {
+            return Err(self.no_such(gap.to));
+        }
+        let faces = new + usize::from(closes);
+        let first = self.known.vertex_count();
+        if faces > self.faces_left || first as usize + new > self.counts[1] {
+            return Err(self.too_many(faces > self.faces_left));
+        }
+        self.faces_left -= faces;
+
+        // The vertex across the edge from which faces go on.
+        let mut across = match (new, gap.is_backward) {
+            (0, _) => NONE,
+            (_, false) => self.known.third(gap.from, gap.root),
+            (_, true) => self.known.third(gap.root, gap.from),
+        };
+        if !gap.is_backward {
+            let to = closes.then_some(gap.to);
+            self.known.add_fan(gap.root, gap.from, index32(new), to);
+        }
+        for vertex in first..first + index32(new) {
+            let face = gap.face(vertex);
+            if gap.is_backward {
+                self.known.add_vertex();
+                self.known.add_face(face);
+            }
+            // Without one, the vertex is taken to be near the neighbour.
+            let across_or = if across == NONE { gap.root } else { across };
+            self.fans.vertex(vertex, [gap.root, gap.from, across_or]);
+            self.fans.face(face);
+            across = gap.from;
+            gap.from = vertex;
+        }
+        if closes {
+            self.fans.face(gap.face(gap.to));
+        }
         Ok(())
     }
 
@@ -304,7 +372,7 @@ impl<F: Fans> Traversal<F> {
             to,
             is_backward,
             known: [faces, self.known.faces(from), self.known.faces(to)],
-            surplus: i32::from(self.surplus[root as usize]),
+            surplus: self.known.surplus(root),
         }
     }
 
@@ -315,6 +383,12 @@ impl<F: Fans> Traversal<F> {
 }
 
 impl Gap {
+    /// Whether a face may lead to the other end: to a vertex that was the root, none does any more.
+    #[inline]
+    pub(super) fn can_close(&self) -> bool {
+        !self.is_backward && self.to >= self.root
+    }
+
     /// The next face, with a vertex.
     #[inline]
     pub(super) fn face(&self, vertex: u32) -> [u32; 3] {

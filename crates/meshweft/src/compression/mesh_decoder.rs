@@ -1,0 +1,277 @@
+//! Bytes as a mesh.
+
+use super::BLOCK_SIZE;
+use super::mesh_code::{IS_LOSSLESS, MeshCode};
+use super::options::Tier;
+use super::positions::{Exact, OnLattice, Positions};
+use crate::bits::{DecodeError, DecodeErrorKind, varint};
+use crate::connectivity::BlockReader;
+use crate::geometry::Lattice;
+use crate::limits::Limits;
+use crate::mesh::Mesh;
+
+/// Decodes a mesh while its bytes arrive.
+///
+/// Vertices and faces come block by block, and a face never before its vertices. What was not taken stays; beyond
+/// that, the decoder keeps about 110 bytes for each vertex of the buffer that minimum-time rendering needs, and
+/// the bytes of one block.
+///
+/// ```
+/// use meshweft::compression::{CodeOptions, MeshCode, MeshDecoder};
+/// use meshweft::{Limits, Mesh};
+///
+/// let mesh = Mesh::new(vec![[0.0; 3], [1.0; 3], [2.0; 3]], vec![[0, 1, 2]])?;
+/// let code = MeshCode::new(&mesh, &CodeOptions::default())?;
+/// let mut decoder = MeshDecoder::new(Limits::default());
+/// let (mut positions, mut faces) = (Vec::new(), Vec::new());
+/// for some in code.bytes().chunks(5) {
+///     decoder.push(some)?;
+///     positions.extend(decoder.take_positions());
+///     faces.extend(decoder.take_faces());
+/// }
+/// decoder.finish()?;
+/// assert_eq!((positions.len(), faces), (3, vec![[0, 1, 2]]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct MeshDecoder {
+    limits: Limits,
+    /// Bytes of the block that is not complete yet.
+    waiting: Vec<u8>,
+    /// Bytes before them.
+    passed: usize,
+    reader: Option<MeshBlocks>,
+    positions: Vec<[f32; 3]>,
+    error: Option<DecodeError>,
+}
+
+/// The blocks, by how positions are stored.
+#[derive(Debug)]
+enum MeshBlocks {
+    Lossless(BlockReader<Positions<'static, Exact>>),
+    OnLattice {
+        reader: BlockReader<Positions<'static, OnLattice>>,
+        lattice: Lattice,
+        origin: [i64; 3],
+    },
+}
+
+/// Does the same with either.
+macro_rules! with_reader {
+    ($of:expr, $reader:ident => $do:expr) => {
+        match $of {
+            MeshBlocks::Lossless($reader) => $do,
+            MeshBlocks::OnLattice {
+                reader: $reader, ..
+            } => $do,
+        }
+    };
+}
+
+impl MeshDecoder {
+    /// A decoder that refuses meshes with more vertices or faces than the limits allow.
+    #[must_use]
+    pub fn new(limits: Limits) -> Self {
+        Self {
+            limits,
+            waiting: Vec::new(),
+            passed: 0,
+            reader: None,
+            positions: Vec::new(),
+            error: None,
+        }
+    }
+
+    /// Takes the next bytes; returns how many of them belong to the mesh: all, unless it is complete.
+    ///
+    /// # Errors
+    /// What was read is damaged, is not a mesh, or is above the limits. Then the decoder gives the same error for
+    /// all that comes.
+    pub fn push(&mut self, bytes: &[u8]) -> Result<usize, DecodeError> {
+        if let Some(error) = &self.error {
+            return Err(error.clone());
+        }
+        let before = self.waiting.len();
+        self.waiting.extend_from_slice(bytes);
+        let waiting = std::mem::take(&mut self.waiting);
+        let mut used = 0;
+        while !self.is_complete() {
+            match self.read(&waiting[used..]) {
+                Ok(Some(length)) => used += length,
+                Ok(None) => break,
+                Err(mut error) => {
+                    error.byte += self.passed + used;
+                    self.error = Some(error.clone());
+                    return Err(error);
+                }
+            }
+        }
+        self.passed += used;
+        if self.is_complete() {
+            return Ok(used - before);
+        }
+        self.waiting = waiting;
+        self.waiting.drain(..used);
+        Ok(bytes.len())
+    }
+
+    /// Reads the next piece; returns its length, or `None` if it is not complete.
+    fn read(&mut self, bytes: &[u8]) -> Result<Option<usize>, DecodeError> {
+        let Some(reader) = &mut self.reader else {
+            let mut rest = bytes;
+            self.reader = read_beginning(&mut rest, self.limits).map_err(|kind| DecodeError {
+                byte: bytes.len() - rest.len(),
+                kind,
+            })?;
+            let is_there = self.reader.is_some();
+            return Ok(is_there.then_some(bytes.len() - rest.len()));
+        };
+        let read = with_reader!(reader, reader => reader.read_piece(bytes))?;
+        match reader {
+            MeshBlocks::Lossless(reader) => {
+                let read = reader.at_vertices().read.drain(..);
+                self.positions
+                    .extend(read.map(|numbers| numbers.map(Exact::coordinate)));
+            }
+            MeshBlocks::OnLattice {
+                reader,
+                lattice,
+                origin,
+            } => {
+                let read = reader.at_vertices().read.drain(..);
+                self.positions.extend(read.map(|numbers| {
+                    [0, 1, 2].map(|axis| {
+                        lattice.coordinate(origin[axis].saturating_add(numbers[axis].into()))
+                    })
+                }));
+            }
+        }
+        Ok(read)
+    }
+
+    /// Whether the whole mesh was read.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        let reader = self.reader.as_ref();
+        reader.is_some_and(|reader| with_reader!(reader, reader => reader.is_complete()))
+    }
+
+    /// How many vertices and faces the mesh has, once that was read.
+    #[must_use]
+    pub fn counts(&self) -> Option<[usize; 2]> {
+        let reader = self.reader.as_ref()?;
+        Some(with_reader!(reader, reader => reader.counts()))
+    }
+
+    /// The positions that were read since they were last taken, in the order of the vertices.
+    pub fn take_positions(&mut self) -> Vec<[f32; 3]> {
+        std::mem::take(&mut self.positions)
+    }
+
+    /// The faces that were read since they were last taken.
+    pub fn take_faces(&mut self) -> Vec<[u32; 3]> {
+        match &mut self.reader {
+            Some(reader) => with_reader!(reader, reader => std::mem::take(reader.faces())),
+            None => Vec::new(),
+        }
+    }
+
+    /// # Errors
+    /// The mesh is not complete.
+    pub fn finish(&self) -> Result<(), DecodeError> {
+        match (&self.error, self.is_complete()) {
+            (Some(error), _) => Err(error.clone()),
+            (None, true) => Ok(()),
+            (None, false) => Err(DecodeError {
+                byte: self.passed + self.waiting.len(),
+                kind: DecodeErrorKind::EndsEarly,
+            }),
+        }
+    }
+}
+
+impl MeshCode {
+    /// The mesh, from all its bytes.
+    ///
+    /// # Errors
+    /// As [`MeshDecoder::push`], or bytes are missing or left over.
+    ///
+    /// # Complexity
+    /// Time and space O(vertices + faces), which the limits bound: a regular mesh takes less than a bit for a
+    /// thousand faces.
+    pub fn decode(bytes: &[u8], limits: Limits) -> Result<Mesh, DecodeError> {
+        let mut decoder = MeshDecoder::new(limits);
+        let used = decoder.push(bytes)?;
+        decoder.finish()?;
+        if used < bytes.len() {
+            return Err(DecodeError::damaged(used));
+        }
+        let (positions, faces) = (decoder.take_positions(), decoder.take_faces());
+        Mesh::new(positions, faces).map_err(|_| DecodeError::damaged(used))
+    }
+}
+
+/// What is before the blocks, or `None` if it is not complete.
+fn read_beginning(
+    bytes: &mut &[u8],
+    limits: Limits,
+) -> Result<Option<MeshBlocks>, DecodeErrorKind> {
+    // How it is coded.
+    let Some(&[tier, flags]) = bytes.first_chunk() else {
+        return Ok(None);
+    };
+    let unknown = |what, found: u8| DecodeErrorKind::Unknown {
+        what,
+        found: found.into(),
+    };
+    if Tier::ALL.get(usize::from(tier)).is_none() {
+        return Err(unknown("tier", tier));
+    }
+    if flags & !IS_LOSSLESS != 0 {
+        return Err(unknown("kind of stream", flags));
+    }
+
+    // How much there is.
+    let mut rest = &bytes[2..];
+    let is_cut = |rest: &[u8]| rest.len() < varint::LONGEST;
+    let mut counts = [0; 2];
+    let (most, names) = ([limits.vertices, limits.faces], ["vertices", "faces"]);
+    for ((count, limit), what) in counts.iter_mut().zip(most).zip(names) {
+        let said = match varint::read(&mut rest) {
+            Some(said) => said,
+            None if is_cut(rest) => return Ok(None),
+            None => return Err(DecodeErrorKind::Damaged),
+        };
+        let allowed = usize::try_from(said).ok().filter(|&said| said <= limit);
+        *count = allowed.ok_or(DecodeErrorKind::AboveLimit { what, said, limit })?;
+    }
+    let [vertices, faces] = counts;
+
+    // Where positions are.
+    let reader = if flags & IS_LOSSLESS != 0 {
+        let positions = Positions::new(None);
+        MeshBlocks::Lossless(BlockReader::new(faces, vertices, BLOCK_SIZE, positions))
+    } else {
+        let Some((step, mut after)) = rest.split_first_chunk() else {
+            return Ok(None);
+        };
+        let lattice = Lattice::new(f64::from_le_bytes(*step)).ok_or(DecodeErrorKind::Damaged)?;
+        let mut origin = [0; 3];
+        for multiple in &mut origin {
+            match varint::read(&mut after) {
+                Some(number) => *multiple = varint::unzigzag(number),
+                None if is_cut(after) => return Ok(None),
+                None => return Err(DecodeErrorKind::Damaged),
+            }
+        }
+        rest = after;
+        let positions = Positions::new(None);
+        MeshBlocks::OnLattice {
+            reader: BlockReader::new(faces, vertices, BLOCK_SIZE, positions),
+            lattice,
+            origin,
+        }
+    };
+    *bytes = rest;
+    Ok(Some(reader))
+}

@@ -1,0 +1,32 @@
+//! Meshes as few bytes, decoded in the order in which they are drawn.
+//!
+//! [`MeshCode`] is a mesh as bytes: its faces as [fans](crate::connectivity::FanCode), and between them the position of each
+//! vertex where it is met, by how far it is from completing a parallelogram with the face before. [`MeshDecoder`]
+//! takes the bytes as they arrive, and gives vertices and faces that are complete. They come in the order of
+//! [minimum-time rendering](crate::connectivity::MinimumTimeRendering): each vertex is sent once, to a buffer of moderate
+//! size.
+//!
+//! [`MeshArchive`] has several with their names: what a `.mwz` file holds.
+//!
+//! Whatever a mesh is, it comes back: edges with many faces, faces turned over, faces that are there twice or have no
+//! area, vertices without faces. Nothing is split or joined. Everything is in whole numbers, but for lossless
+//! positions, which are expected by additions of `f32` that are the same everywhere.
+
+mod archive;
+mod mesh_code;
+mod mesh_decoder;
+mod options;
+mod positions;
+mod ring;
+#[cfg(test)]
+mod tests;
+
+use crate::connectivity::BlockSize;
+
+pub use archive::MeshArchive;
+pub use mesh_code::{CodeSizes, MeshCode};
+pub use mesh_decoder::MeshDecoder;
+pub use options::{CodeError, CodeOptions, PositionCoding, Tier};
+
+/// How much is decoded at once.
+const BLOCK_SIZE: BlockSize = BlockSize(4096);
