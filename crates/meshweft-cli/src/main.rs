@@ -1,9 +1,11 @@
-//! The program `meshweft`: optimise, simplify, inspect and compare mesh files.
+//! The program `meshweft`: optimise, simplify, compress, inspect and compare mesh files.
 #![forbid(unsafe_code)]
 
 mod caches;
 mod columns;
 mod compare;
+mod compress;
+mod decompress;
 mod demo;
 mod inspect;
 mod optimize;
@@ -18,6 +20,8 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use compare::Compare;
+use compress::Compress;
+use decompress::Decompress;
 use demo::Demo;
 use inspect::Inspect;
 use optimize::Optimize;
@@ -59,6 +63,21 @@ enum Verb {
     ///   meshweft simplify assets --faces 5000 --effort best -o coarse --keep-going --json
     #[command(verbatim_doc_comment)]
     Simplify(Simplify),
+    /// Store the positions and faces of a file in few bytes, in the order to be drawn
+    ///
+    /// Every mesh comes back with each face and vertex, whatever its edges: nothing is split or joined. The result is
+    /// decoded and compared before it is written. Vertices and faces get another order: that in which each vertex
+    /// is sent once to a first-in first-out buffer. Other attributes are not compressed yet.
+    ///
+    ///   meshweft compress scan.ply -o scan.mwz
+    ///   meshweft compress scene.glb -o scene.mwz --position-bits 14 --drop-attributes
+    #[command(verbatim_doc_comment)]
+    Compress(Compress),
+    /// Turn a .mwz file into a mesh file
+    ///
+    ///   meshweft decompress scan.mwz -o scan.glb
+    #[command(verbatim_doc_comment)]
+    Decompress(Decompress),
     /// Count cache misses of files as they are
     ///
     ///   meshweft inspect scene.glb --cache fifo:12 --cache nvidia --json
@@ -86,6 +105,8 @@ fn main() -> ExitCode {
     let done = match &Arguments::parse().verb {
         Verb::Optimize(arguments) => optimize::run(arguments),
         Verb::Simplify(arguments) => simplify::run(arguments),
+        Verb::Compress(arguments) => compress::run(arguments),
+        Verb::Decompress(arguments) => decompress::run(arguments),
         Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Compare(arguments) => compare::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),

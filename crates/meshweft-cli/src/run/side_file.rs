@@ -59,6 +59,13 @@ pub(crate) const PICTURE: SideFile = SideFile {
     },
 };
 
+/// What `compress` writes.
+pub(crate) const ARCHIVE: SideFile = SideFile {
+    flag: "--output",
+    other: "another name",
+    is_own: |start| start.starts_with(b"MWZ\x1a"),
+};
+
 /// What `--manifest` appends to.
 pub(crate) const MANIFEST: SideFile = SideFile {
     flag: "--manifest",
@@ -146,18 +153,18 @@ pub(crate) struct PendingFile {
     path: PathBuf,
     /// `None` where there is no file to rename, such as for /dev/stdout.
     temporary: Option<PathBuf>,
-    text: String,
+    bytes: Vec<u8>,
     /// Locked as long as it is needed: another run would take it for abandoned.
     file: Option<fs::File>,
 }
 
 impl PendingFile {
-    /// Writes the text beside its place.
-    pub(crate) fn new(path: &Path, text: String) -> io::Result<Self> {
+    /// Writes text or other bytes beside their place.
+    pub(crate) fn new(path: &Path, bytes: impl Into<Vec<u8>>) -> io::Result<Self> {
         let mut pending = Self {
             path: path.to_owned(),
             temporary: None,
-            text,
+            bytes: bytes.into(),
             file: None,
         };
         if fs::metadata(path).is_ok_and(|data| !data.is_file()) {
@@ -188,7 +195,7 @@ impl PendingFile {
         // Not every file system has locks.
         let _ = file.lock();
         pending.temporary = Some(temporary);
-        file.write_all(pending.text.as_bytes())?;
+        file.write_all(&pending.bytes)?;
         file.sync_all()?;
         pending.file = Some(file);
         Ok(pending)
@@ -199,7 +206,7 @@ impl PendingFile {
         let _no_interrupt = interrupt::hold_off();
         match self.temporary.take() {
             Some(temporary) => fs::rename(temporary, &self.path),
-            None => fs::write(&self.path, &self.text),
+            None => fs::write(&self.path, &self.bytes),
         }
     }
 }

@@ -19,15 +19,14 @@ const VERSION: u8 = 1;
 /// let mesh = Mesh::new(vec![[0.0; 3], [1.0; 3], [2.0; 3]], vec![[0, 1, 2]])?;
 /// let mut archive = MeshArchive::default();
 /// archive.push("triangle", &MeshCode::new(&mesh, &CodeOptions::default())?);
-/// let read = MeshArchive::from_bytes(&archive.to_bytes(), Limits::default())?;
+/// let read = MeshArchive::from_bytes(&archive.to_bytes())?;
 /// assert_eq!(read.name(0), "triangle");
-/// assert_eq!(read.decode(0)?, mesh);
+/// assert_eq!(read.decode(0, Limits::default())?, mesh);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MeshArchive {
     meshes: Vec<NamedCode>,
-    limits: Limits,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -72,13 +71,13 @@ impl MeshArchive {
     /// The mesh.
     ///
     /// # Errors
-    /// As [`MeshCode::decode`], with the limits that the archive was read with.
+    /// As [`MeshCode::decode`].
     ///
     /// # Panics
     /// If there is no such mesh.
-    pub fn decode(&self, mesh: usize) -> Result<Mesh, DecodeError> {
+    pub fn decode(&self, mesh: usize, limits: Limits) -> Result<Mesh, DecodeError> {
         let entry = &self.meshes[mesh];
-        MeshCode::decode(&entry.code, self.limits).map_err(|error| DecodeError {
+        MeshCode::decode(&entry.code, limits).map_err(|error| DecodeError {
             byte: error.byte + entry.byte,
             ..error
         })
@@ -112,7 +111,7 @@ impl MeshArchive {
     ///
     /// # Errors
     /// The bytes are no archive, are cut, or have changed: every mesh has a checksum.
-    pub fn from_bytes(bytes: &[u8], limits: Limits) -> Result<Self, DecodeError> {
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, DecodeError> {
         let mut rest = bytes;
         let error = |rest: &[u8], kind| DecodeError {
             byte: bytes.len() - rest.len(),
@@ -159,7 +158,7 @@ impl MeshArchive {
             });
         }
         match rest.is_empty() {
-            true => Ok(Self { meshes, limits }),
+            true => Ok(Self { meshes }),
             false => Err(error(rest, DecodeErrorKind::Damaged)),
         }
     }
@@ -189,11 +188,12 @@ mod tests {
         let archive = archive();
         let bytes = archive.to_bytes();
         assert!(MeshArchive::is_archive(&bytes));
-        let read = MeshArchive::from_bytes(&bytes, Limits::default()).unwrap();
+        let read = MeshArchive::from_bytes(&bytes).unwrap();
         assert_eq!(read.len(), 3);
         for mesh in 0..3 {
             assert_eq!(read.name(mesh), archive.name(mesh));
-            assert_eq!(read.decode(mesh), archive.decode(mesh));
+            let limits = Limits::default();
+            assert_eq!(read.decode(mesh, limits), archive.decode(mesh, limits));
         }
         assert_eq!(read.to_bytes(), bytes);
     }
@@ -202,18 +202,18 @@ mod tests {
     fn every_change_and_every_cut_is_noticed() {
         let bytes = archive().to_bytes();
         for length in 0..bytes.len() {
-            assert!(MeshArchive::from_bytes(&bytes[..length], Limits::default()).is_err());
+            assert!(MeshArchive::from_bytes(&bytes[..length]).is_err());
         }
         for place in 0..bytes.len() {
             for bit in 0..8 {
                 let mut changed = bytes.clone();
                 changed[place] ^= 1 << bit;
-                assert!(MeshArchive::from_bytes(&changed, Limits::default()).is_err());
+                assert!(MeshArchive::from_bytes(&changed).is_err());
             }
         }
-        let error = MeshArchive::from_bytes(b"ply\n", Limits::default()).unwrap_err();
+        let error = MeshArchive::from_bytes(b"ply\n").unwrap_err();
         assert_eq!(error.kind, DecodeErrorKind::NoArchive);
-        let error = MeshArchive::from_bytes(b"MWZ\x1a\x09", Limits::default()).unwrap_err();
+        let error = MeshArchive::from_bytes(b"MWZ\x1a\x09").unwrap_err();
         assert!(error.to_string().contains("version 9"), "{error}");
     }
 }

@@ -1,0 +1,80 @@
+//! `decompress`: a compressed file as a mesh file.
+
+use std::fs;
+use std::io::Read;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use meshweft::files::{self, NewMesh};
+use meshweft::operations;
+use serde_json::json;
+
+use crate::run::arguments::Size;
+use crate::run::output::Report;
+
+#[derive(Debug, Args)]
+pub(crate) struct Decompress {
+    /// A file that compress wrote
+    #[arg(value_name = "IN.mwz")]
+    input: PathBuf,
+    /// Where to write: a .glb, .gltf, .obj, .ply, .off or .stl file; the last three hold one mesh
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Replace the output
+    #[arg(long, display_order = 99)]
+    force: bool,
+    #[command(flatten)]
+    size: Size,
+    #[command(flatten)]
+    report: Report,
+}
+
+/// Decompresses a file.
+pub(crate) fn run(arguments: &Decompress) -> Result<()> {
+    let start = Instant::now();
+    let name = || arguments.input.display().to_string();
+    let limits = arguments.size.limits();
+
+    // What is read, not more than is allowed.
+    let mut bytes = Vec::new();
+    let file = fs::File::open(&arguments.input).with_context(name)?;
+    let most = limits.file_bytes.saturating_add(1);
+    file.take(most).read_to_end(&mut bytes).with_context(name)?;
+    if bytes.len() as u64 > limits.file_bytes {
+        bail!(
+            "{}: more than {} bytes: allow more with --max-bytes",
+            name(),
+            limits.file_bytes
+        );
+    }
+    let meshes = operations::decompress(&bytes, limits).with_context(name)?;
+
+    // What is written.
+    let new = meshes.iter();
+    let new: Vec<NewMesh<'_>> = new
+        .map(|(name, mesh)| NewMesh::plain(name, mesh.positions(), mesh.faces()))
+        .collect();
+    let written = files::create(&arguments.output, &new, arguments.force)?;
+
+    // What was done.
+    let vertices: usize = meshes.iter().map(|(_, mesh)| mesh.vertex_count()).sum();
+    let faces: usize = meshes.iter().map(|(_, mesh)| mesh.face_count()).sum();
+    let output = arguments.output.display().to_string();
+    arguments.report.text(&format!(
+        "{} -> {output}: {} meshes, {vertices} vertices, {faces} faces",
+        name(),
+        meshes.len(),
+    ))?;
+    let members = json!({
+        "file": name(),
+        "output": output,
+        "bytes": {"before": bytes.len(), "after": written.bytes},
+        "seconds": start.elapsed().as_secs_f64(),
+        "meshes": meshes.len(),
+        "vertices": vertices,
+        "faces": faces,
+    });
+    Ok(arguments.report.json("decompress", &members)?)
+}

@@ -1,0 +1,174 @@
+//! What a compression is asked for, and why it cannot be done.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use crate::attribute::AttributeInfo;
+use crate::compression::{CodeError, Tier};
+use crate::connectivity::FirstVertex;
+use crate::error::MeshError;
+use crate::files::FileError;
+
+/// How a document is compressed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct CompressOptions {
+    /// What is paid for a smaller stream.
+    pub tier: Tier,
+    /// How exact positions are.
+    pub positions: PositionPrecision,
+    /// The vertex with which each mesh begins.
+    pub first_vertex: FirstVertex,
+    /// Leave out what the file stores with vertices, corners and faces, but for positions.
+    pub drop_attributes: bool,
+    /// Store polygons as the triangles that they are drawn as.
+    pub triangles: bool,
+}
+
+/// How exact positions are.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub enum PositionPrecision {
+    /// Every bit.
+    #[default]
+    Lossless,
+    /// The largest extent of the document along any axis is two to the power of this number minus one steps
+    /// long.
+    Bits(u32),
+    /// The step, in units of the positions.
+    Step(f64),
+}
+
+/// Why a document cannot be compressed.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum CompressError {
+    /// A mesh stores what cannot be compressed yet.
+    Attributes {
+        /// The file.
+        file: PathBuf,
+        /// What it stores, by mesh.
+        attributes: Vec<(String, Vec<AttributeInfo>)>,
+    },
+    /// A mesh has polygons.
+    Polygons {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
+    /// A mesh has faces that were not read.
+    UnreadFaces {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
+    /// The file has no mesh.
+    NoMesh {
+        /// The file.
+        file: PathBuf,
+    },
+    /// Positions have more bits than are stored.
+    WidePositions {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
+    /// The number of bits, or the step, is out of range.
+    Precision(PositionPrecision),
+    /// A mesh cannot be compressed so.
+    Mesh {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+        /// Why.
+        error: CodeError,
+    },
+    /// The first vertex is not there.
+    FirstVertex(MeshError),
+    /// The file cannot be read.
+    File(FileError),
+    /// What was compressed does not decode to what it was: a fault of this library.
+    NotVerified {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
+}
+
+impl fmt::Display for CompressError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Attributes { file, attributes } => {
+                write!(f, "{}: positions and faces are compressed, and", file.display())?;
+                for (number, (mesh, attributes)) in attributes.iter().enumerate() {
+                    let comma = if number > 0 { ";" } else { "" };
+                    let names = attributes.iter().map(name_of);
+                    let names: Vec<String> = names.collect();
+                    write!(f, "{comma} {mesh} also stores {}", names.join(", "))?;
+                }
+                write!(f, ". Leave them out with drop_attributes")
+            }
+            Self::Polygons { file, mesh } => write!(
+                f,
+                "{}: {mesh} has polygons of more than three corners, and triangles are compressed. Store the triangles \
+                 that they are drawn as with triangles",
+                file.display()
+            ),
+            Self::UnreadFaces { file, mesh } => write!(
+                f,
+                "{}: {mesh} has faces that cannot be read (strips, fans, or compressed ones), so it cannot be compressed \
+                 whole. Convert the file to lists of triangles",
+                file.display()
+            ),
+            Self::NoMesh { file } => {
+                write!(f, "{}: there is no mesh to compress", file.display())
+            }
+            Self::WidePositions { file, mesh } => write!(
+                f,
+                "{}: the positions of {mesh} have more bits than a 32-bit float. Round them with a position step or a \
+                 number of position bits",
+                file.display()
+            ),
+            Self::Precision(PositionPrecision::Bits(bits)) => {
+                write!(f, "{bits} position bits: give 1 to 30")
+            }
+            Self::Precision(PositionPrecision::Step(step)) => {
+                write!(f, "position step {step}: give a power of two, such as 0.0009765625 (2^-10)")
+            }
+            Self::Precision(PositionPrecision::Lossless) => Ok(()),
+            Self::Mesh { file, mesh, error } => {
+                write!(f, "{}: {mesh}: {error}", file.display())
+            }
+            Self::FirstVertex(error) => error.fmt(f),
+            Self::File(error) => error.fmt(f),
+            Self::NotVerified { file, mesh } => write!(
+                f,
+                "{}: {mesh} did not decode to what it was, so nothing is written. This is a fault of meshweft: please \
+                 report it with the file",
+                file.display()
+            ),
+        }
+    }
+}
+
+// No `source`: the text above already says it.
+impl std::error::Error for CompressError {}
+
+impl From<FileError> for CompressError {
+    fn from(error: FileError) -> Self {
+        Self::File(error)
+    }
+}
+
+/// What an attribute is called.
+fn name_of(info: &AttributeInfo) -> String {
+    match info.morph_target {
+        Some(target) => format!("{} of morph target {target}", info.semantic),
+        None => info.semantic.to_string(),
+    }
+}

@@ -1,0 +1,159 @@
+//! Documents as archives, and back.
+
+#![cfg(feature = "files")]
+
+mod data;
+
+use meshweft::attribute::{Attribute, Semantic};
+use meshweft::connectivity::FirstVertex;
+use meshweft::files::{Document, Format, NewMesh, NewVertices, ReadOptions};
+use meshweft::operations::{
+    CompressError, CompressOptions, PositionPrecision, compress, decompress,
+};
+use meshweft::{Limits, Mesh};
+
+/// What leaves out whatever cannot be compressed.
+fn leaving_out() -> CompressOptions {
+    let mut options = CompressOptions::default();
+    options.first_vertex = FirstVertex::Given(0);
+    options.drop_attributes = true;
+    options.triangles = true;
+    options
+}
+
+/// The corners of a mesh's faces by the bits of their positions, each face turned so that its least corner is first,
+/// sorted.
+fn corners(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> Vec<[[u32; 3]; 3]> {
+    let corners = faces.iter().map(|face| {
+        let corners = face.map(|vertex| positions[vertex as usize].map(f32::to_bits));
+        let turns = [0, 1, 2].map(|turn| [0, 1, 2].map(|corner| corners[(corner + turn) % 3]));
+        turns.into_iter().min().expect("three turns")
+    });
+    let mut corners: Vec<_> = corners.collect();
+    corners.sort_unstable();
+    corners
+}
+
+#[test]
+fn every_file_at_hand_comes_back_from_either_precision() {
+    let Some(folder) = data::meshes() else { return };
+    let mut paths: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| Format::of_path(path).is_some())
+        .collect();
+    paths.sort();
+    let mut done = 0;
+    for path in paths {
+        let document = Document::open(&path, ReadOptions::default()).unwrap();
+        let faces: usize = document.meshes().iter().map(|entry| entry.mesh.face_count()).sum();
+        // The largest ones take minutes without optimisation.
+        if faces > 150_000 {
+            continue;
+        }
+        for positions in [PositionPrecision::Lossless, PositionPrecision::Bits(14)] {
+            let mut options = leaving_out();
+            options.positions = positions;
+            let (bytes, report) = match compress(&document, &options) {
+                Err(CompressError::WidePositions { .. }) => continue,
+                compressed => compressed.unwrap(),
+            };
+            assert_eq!(report.bytes_after, bytes.len() as u64);
+            let meshes = decompress(&bytes, Limits::default()).unwrap();
+            assert_eq!(meshes.len(), document.meshes().len());
+            for (number, (name, mesh)) in meshes.iter().enumerate() {
+                let entry = &document.meshes()[number];
+                assert_eq!((name, mesh.face_count()), (&entry.name, entry.mesh.face_count()));
+                if positions == PositionPrecision::Lossless {
+                    let source = document.positions(number).unwrap().unwrap();
+                    assert_eq!(
+                        corners(mesh.positions(), mesh.faces()),
+                        corners(&source, entry.mesh.faces()),
+                        "{}",
+                        path.display()
+                    );
+                }
+            }
+            done += 1;
+        }
+    }
+    assert!(done > 10, "{done} files");
+}
+
+/// A document of meshes by name, a square each.
+fn document(format: Format, meshes: &[(&str, &[Attribute])]) -> Document {
+    let faces = [[0, 1, 2], [2, 1, 3]];
+    let new = meshes.iter();
+    let new: Vec<_> = new
+        .map(|(name, attributes)| NewMesh::new(name, NewVertices::Stored(attributes), &faces))
+        .collect();
+    Document::create(format, "made".as_ref(), &new).unwrap()
+}
+
+fn square(x: f32) -> Attribute {
+    let positions = [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.1], [x + 1.0, 1.0, 0.3]];
+    Attribute::of_vertices(Semantic::Position, &positions)
+}
+
+#[test]
+fn what_cannot_be_compressed_is_named_and_left_out_on_request() {
+    let normals = Attribute::of_vertices(Semantic::Normal, &[[0.0, 0.0, 1.0]; 4]);
+    let document = document(Format::Ply, &[("one", &[square(0.0), normals])]);
+    let error = compress(&document, &CompressOptions::default()).unwrap_err();
+    let text = error.to_string();
+    assert!(text.contains("NORMAL") && text.contains("drop_attributes"), "{text}");
+    compress(&document, &leaving_out()).unwrap();
+}
+
+#[test]
+fn polygons_are_triangles_on_request() {
+    let text = b"OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n".to_vec();
+    let document = Document::from_bytes(text, Format::Off, "square.off".as_ref(), Limits::default()).unwrap();
+    let error = compress(&document, &CompressOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("polygons"), "{error}");
+    let (bytes, _) = compress(&document, &leaving_out()).unwrap();
+    let meshes = decompress(&bytes, Limits::default()).unwrap();
+    assert_eq!(meshes[0].1.face_count(), 2);
+}
+
+#[test]
+fn meshes_that_meet_still_meet_on_their_lattice() {
+    let document = document(
+        Format::Glb,
+        &[("left", &[square(0.0)]), ("right", &[square(1.0)])],
+    );
+    let mut options = CompressOptions::default();
+    for positions in [PositionPrecision::Bits(5), PositionPrecision::Step(0.125)] {
+        options.positions = positions;
+        let (bytes, report) = compress(&document, &options).unwrap();
+        let meshes = decompress(&bytes, Limits::default()).unwrap();
+        let has = |mesh: &Mesh| {
+            let mut points: Vec<_> = mesh.positions().iter().map(|it| it.map(f32::to_bits)).collect();
+            points.sort_unstable();
+            points
+        };
+        let [left, right] = [has(&meshes[0].1), has(&meshes[1].1)];
+        let shared = left.iter().filter(|point| right.contains(point));
+        assert_eq!(shared.count(), 2, "{:?}", report.step);
+    }
+    for positions in [PositionPrecision::Bits(31), PositionPrecision::Step(0.3)] {
+        options.positions = positions;
+        let error = compress(&document, &options).unwrap_err();
+        assert!(matches!(error, CompressError::Precision(_)), "{error}");
+    }
+}
+
+#[test]
+fn limits_hold_for_all_meshes_together() {
+    let document = document(
+        Format::Glb,
+        &[("left", &[square(0.0)]), ("right", &[square(1.0)])],
+    );
+    let (bytes, report) = compress(&document, &CompressOptions::default()).unwrap();
+    assert!(report.to_json().contains("\"connectivity_bits_per_face\""));
+    let mut limits = Limits::default();
+    limits.file_bytes = 12 * 6;
+    decompress(&bytes, limits).unwrap_err();
+    limits.file_bytes = 12 * 12;
+    decompress(&bytes, limits).unwrap();
+}

@@ -1,0 +1,52 @@
+//! Any bytes as an archive and as a compressed mesh: no panic, no index beyond the vertices, no more than the limits
+//! allow, and the same from bytes that arrive in pieces.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use meshweft::Limits;
+use meshweft::compression::{MeshArchive, MeshCode, MeshDecoder};
+
+fuzz_target!(|data: &[u8]| {
+    let mut limits = Limits::default();
+    limits.vertices = 1 << 14;
+    limits.faces = 1 << 15;
+    if let Ok(archive) = MeshArchive::from_bytes(data) {
+        for mesh in 0..archive.len() {
+            let _ = archive.decode(mesh, limits);
+        }
+    }
+
+    let whole = MeshCode::decode(data, limits);
+    let mut decoder = MeshDecoder::new(limits);
+    let (mut positions, mut faces) = (Vec::new(), Vec::new());
+    let mut error = None;
+    let mut left = data.len();
+    for piece in data.chunks(7) {
+        match decoder.push(piece) {
+            Ok(used) => left -= used,
+            Err(found) => error = Some(found),
+        }
+        positions.extend(decoder.take_positions());
+        faces.extend(decoder.take_faces());
+        if error.is_some() || decoder.is_complete() {
+            break;
+        }
+    }
+    let is_there = |&vertex: &u32| (vertex as usize) < limits.vertices;
+    assert!(faces.as_flattened().iter().all(is_there));
+    match whole {
+        Ok(mesh) => {
+            assert!(error.is_none() && left == 0);
+            decoder.finish().expect("as when it came at once");
+            let bits = |positions: &[[f32; 3]]| -> Vec<_> {
+                positions.iter().map(|it| it.map(f32::to_bits)).collect()
+            };
+            assert_eq!(bits(&positions), bits(mesh.positions()));
+            assert_eq!(faces, mesh.faces());
+        }
+        Err(whole) => match error {
+            Some(error) => assert_eq!(error, whole),
+            None => assert!(left > 0 || decoder.finish().is_err()),
+        },
+    }
+});
