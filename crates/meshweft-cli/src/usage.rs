@@ -36,7 +36,9 @@ pub(crate) fn message(error: &Error) -> String {
                 _ => text.to_owned(),
             }
         }
-        Some(FileErrorKind::ReadOnly) => format!("{text}. Give --force to replace it"),
+        Some(FileErrorKind::ReadOnly | FileErrorKind::Exists) => {
+            format!("{text}. Give --force to replace it")
+        }
         _ => text,
     }
 }

@@ -10,7 +10,7 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use clap::Args;
 use meshweft::attribute::{Attribute, Semantic};
-use meshweft::files::{Document, Format, NewMesh, NewVertices};
+use meshweft::files::{self, NewMesh, NewVertices};
 use meshweft::geometry::vertex_normals;
 use meshweft::operations::Method;
 use meshweft::order::{Effort, Mode};
@@ -143,7 +143,7 @@ fn write_glb(mesh: &Mesh, name: &str, path: &Path) -> Result<()> {
         Attribute::of_vertices(Semantic::Normal, &normals),
     ];
     let new = NewMesh::new(name, NewVertices::Stored(&attributes), mesh.faces());
-    Document::create(Format::Glb, path, &[new])?.write(path)?;
+    files::create(path, &[new], true)?;
     Ok(())
 }
 

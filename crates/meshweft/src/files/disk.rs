@@ -329,15 +329,16 @@ pub(super) fn write_files(files: &[OutputFile<'_>]) -> Result<Vec<u64>, (PathBuf
     Ok(sizes)
 }
 
-/// Copies a file as it is, so that whenever this ends, `to` is all old or all new; its size.
+/// Copies a file as it is, so that whenever this ends, `to` is all old or all new; its size. With `is_free`,
+/// nothing is replaced.
 ///
 /// # Errors
 /// What the system says.
-pub(super) fn copy_file(from: &Path, to: &Path) -> io::Result<u64> {
+pub(super) fn copy_file(from: &Path, to: &Path, is_free: bool) -> io::Result<u64> {
     check_link(to, to.parent().unwrap_or(Path::new("")))?;
     let new = Temporary::copy(from, to)?;
     let size = new.size;
-    new.rename(false)?;
+    new.rename(is_free)?;
     Ok(size)
 }
 

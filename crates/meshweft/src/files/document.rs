@@ -168,19 +168,16 @@ impl Document {
         })
     }
 
-    /// A document of new meshes, in memory: a GLB, a `.gltf` that holds its buffer itself, or a PLY file,
-    /// which takes one mesh.
+    /// A document of new meshes, in memory, of any format but VRML: see [`NewMesh`] for what each holds. What
+    /// would be written is read first, so it is what any document of that file is.
     ///
     /// The name is for errors, and for a `.gltf` the one it is written under.
     ///
     /// ```
-    /// use meshweft::attribute::{Attribute, Semantic};
-    /// use meshweft::files::{Document, Format, NewMesh, NewVertices};
+    /// use meshweft::files::{Document, Format, NewMesh};
     ///
     /// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    /// let attributes = [Attribute::of_vertices(Semantic::Position, &corners)];
-    /// let vertices = NewVertices::Stored(&attributes);
-    /// let triangle = NewMesh::new("triangle", vertices, &[[0, 1, 2]]);
+    /// let triangle = NewMesh::plain("triangle", &corners, &[[0, 1, 2]]);
     /// let document = Document::create(Format::Glb, "triangle.glb".as_ref(), &[triangle])?;
     /// assert_eq!(document.positions(0)?.as_deref(), Some(&corners[..]));
     /// # Ok::<(), meshweft::files::FileError>(())
@@ -188,17 +185,20 @@ impl Document {
     ///
     /// # Errors
     /// [`FileErrorKind::Unsupported`] if files of this format are not made here, or cannot hold one of
-    /// the meshes; [`FileErrorKind::Order`] if faces name vertices that are not there.
+    /// the meshes; [`FileErrorKind::Order`] if faces name vertices that are not there. Their
+    /// [place](Place::NewMesh) is the mesh.
     ///
     /// # Complexity
     /// Time and space O(bytes of the file).
     pub fn create(format: Format, name: &Path, meshes: &[NewMesh<'_>]) -> Result<Self, FileError> {
         let created = match format {
             Format::Gltf | Format::Glb => gltf::create(format, name, meshes),
+            Format::Obj => obj::create(meshes),
             Format::Ply => ply::create(meshes),
-            Format::Obj | Format::Off | Format::Stl | Format::Vrml => {
-                let text =
-                    format!("{format} files are not made from nothing: create a .glb or a .ply");
+            Format::Off => off::create(meshes),
+            Format::Stl => stl::create(meshes),
+            Format::Vrml => {
+                let text = "VRML files are not made from nothing: create a .glb or an .obj";
                 Err(FileErrorKind::unsupported(text).at(Place::File))
             }
         };

@@ -32,6 +32,13 @@ pub enum Place {
     Byte(usize),
     /// A JSON pointer (RFC 6901), such as `/meshes/3/primitives/0`.
     Json(String),
+    /// A mesh that was to be stored.
+    NewMesh {
+        /// Its number among those that were given, from 0.
+        number: usize,
+        /// Its name; empty if it has none.
+        name: String,
+    },
 }
 
 /// What is wrong with a file.
@@ -43,6 +50,9 @@ pub enum FileErrorKind {
     /// A file that would be replaced is read-only, and [`WriteOptions`](super::WriteOptions) do not allow
     /// that.
     ReadOnly,
+    /// There is something with the name of a new file, and [`WriteOptions`](super::WriteOptions) do not allow
+    /// to replace it.
+    Exists,
     /// Neither the name nor the first bytes belong to a format that is read.
     UnknownFormat,
     /// The file ends inside what it promised.
@@ -169,6 +179,8 @@ impl fmt::Display for Place {
             Self::Line(line) => write!(f, "line {line}"),
             Self::Byte(byte) => write!(f, "byte {byte}"),
             Self::Json(pointer) => f.write_str(pointer),
+            Self::NewMesh { number, name } if name.is_empty() => write!(f, "mesh {number}"),
+            Self::NewMesh { number, name } => write!(f, "mesh {number}, {name:?}"),
         }
     }
 }
@@ -178,6 +190,7 @@ impl fmt::Display for FileErrorKind {
         match self {
             Self::Io(error) => write!(f, "{error}"),
             Self::ReadOnly => f.write_str("it is read-only, and is not replaced unasked"),
+            Self::Exists => f.write_str("it is there already, and is not replaced unasked"),
             Self::UnknownFormat => f.write_str(
                 "unknown format: neither the name nor the first bytes are of glTF, GLB (also .vrm), OBJ, PLY, \
                  OFF, STL or VRML, optionally compressed by gzip",

@@ -8,7 +8,8 @@
 //! | to learn | read |
 //! |---|---|
 //! | how a format plugs in | `content` |
-//! | what can be done to a document | [`Edit`], [`Document::create`] |
+//! | what can be done to a document | [`Edit`] |
+//! | how a file is made that has no source | [`create()`], [`Document::create`], `plain_mesh` |
 //! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `definitions`, `record_file` |
 //! | how records leave, and what then stands with a corner | `select`, `bonds`, `selected`, `corner_sources` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
@@ -20,6 +21,7 @@ mod bonds;
 mod companions;
 mod content;
 mod corner_sources;
+mod create;
 mod decoded;
 mod definitions;
 mod disk;
@@ -41,6 +43,7 @@ mod options;
 mod orders;
 mod outputs;
 mod placing;
+mod plain_mesh;
 mod ply;
 mod record_file;
 mod rewrite;
@@ -55,6 +58,7 @@ mod text;
 mod vrml;
 mod write;
 
+pub use create::create;
 pub use disk::{is_gzip, remove_abandoned};
 pub use document::Document;
 pub use edit::{Edit, NewValue};

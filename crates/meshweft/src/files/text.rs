@@ -3,6 +3,7 @@
 //! Text formats are read as bytes: names and comments may be in any encoding, and nothing is
 //! copied to look at it. A line ends with `\n`, `\r\n` or `\r`.
 
+use std::io::Write;
 use std::ops::Range;
 use std::str::FromStr;
 
@@ -235,6 +236,17 @@ pub(super) fn push_number(out: &mut Vec<u8>, mut number: u64) {
     out.extend_from_slice(&digits[first..]);
 }
 
+/// Appends digits that read back as this number, which is finite: no more than that takes, and an exponent
+/// where many zeros would stand.
+pub(super) fn push_float(out: &mut Vec<u8>, number: f32) {
+    let is_short = number == 0.0 || (1e-5..1e16).contains(&number.abs());
+    let written = match is_short {
+        true => write!(out, "{number}"),
+        false => write!(out, "{number:e}"),
+    };
+    written.expect("memory takes all bytes");
+}
+
 /// A token as an error message shows it: quoted, and cut if it is long.
 pub(super) fn shown(token: &[u8]) -> String {
     const LONGEST: usize = 24;
@@ -338,6 +350,29 @@ mod tests {
             let mut out = Vec::new();
             push_number(&mut out, number);
             assert_eq!(String::from_utf8(out).unwrap(), number.to_string());
+        }
+    }
+
+    #[test]
+    fn floats_are_written_with_the_digits_they_need() {
+        for (number, expected) in [
+            (0.0_f32, "0"),
+            (-0.0, "-0"),
+            (0.1, "0.1"),
+            (-16_777_216.0, "-16777216"),
+            (1.0 / 3.0, "0.33333334"),
+            (1e-5, "0.00001"),
+            (9.99e-6, "9.99e-6"),
+            (-1e16, "-1e16"),
+            (f32::MAX, "3.4028235e38"),
+            (f32::MIN_POSITIVE, "1.1754944e-38"),
+            (f32::from_bits(1), "1e-45"),
+        ] {
+            let mut out = Vec::new();
+            push_float(&mut out, number);
+            assert_eq!(str::from_utf8(&out).unwrap(), expected);
+            let read = coordinate(&out).map(f32::to_bits);
+            assert_eq!(read, Some(number.to_bits()), "{expected}");
         }
     }
 }

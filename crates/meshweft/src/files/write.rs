@@ -30,6 +30,8 @@ use crate::limits::Limits;
 pub struct WriteOptions<'a> {
     /// Copy the [companions](Document::companions) along, if the output is in another folder.
     pub copy_companions: bool,
+    /// Replace the file that has the name of the output.
+    pub replace_existing: bool,
     /// Replace files that are read-only.
     pub replace_read_only: bool,
     /// The outputs of the run that this one is part of: nothing else is put in their places.
@@ -37,12 +39,23 @@ pub struct WriteOptions<'a> {
 }
 
 impl Default for WriteOptions<'_> {
-    /// Companions come along, and what is read-only stays.
+    /// Companions come along, the output may be there already, and what is read-only stays.
     fn default() -> Self {
         Self {
             copy_companions: true,
+            replace_existing: true,
             replace_read_only: false,
             outputs: None,
+        }
+    }
+}
+
+impl WriteOptions<'_> {
+    /// Refuses an output whose name something has, if that is not to be replaced.
+    pub(super) fn check_existing(&self, path: &Path) -> Result<(), Problem> {
+        match !self.replace_existing && fs::symlink_metadata(path).is_ok() {
+            true => Err(FileErrorKind::Exists.at(Place::File)),
+            false => Ok(()),
         }
     }
 }
@@ -119,7 +132,8 @@ impl Document {
     /// [`FileError`] if a file cannot be written, or `path` says another format and does not end as the name
     /// that it was read under, or is a link that leads
     /// elsewhere, or a file that would be replaced has changed since it was read; of kind
-    /// [`FileErrorKind::ReadOnly`] if a read-only file would be replaced.
+    /// [`FileErrorKind::ReadOnly`] if a read-only file would be replaced, [`FileErrorKind::Exists`] if any
+    /// would and the options say no.
     pub fn write_with(
         &self,
         path: &Path,
@@ -138,6 +152,8 @@ impl Document {
             );
             return Err(in_file(FileErrorKind::unsupported(feature).at(Place::File)));
         }
+
+        options.check_existing(path).map_err(in_file)?;
 
         // What it is replaced by, if only one file is written.
         let beside = self.content.beside();
@@ -185,8 +201,11 @@ impl Document {
     fn copy_to(&self, path: &Path, options: &WriteOptions<'_>) -> Result<Written, FileError> {
         check_read_only(path, options)
             .map_err(|problem| problem.in_file(path, Some(self.format)))?;
-        let bytes = copy_file(&self.path, path).map_err(|error| {
-            let problem = FileErrorKind::Io(error).at(Place::File);
+        let copied = copy_file(&self.path, path, !options.replace_existing);
+        let bytes = copied.map_err(|error| {
+            // Somebody else may have been faster.
+            let there = options.check_existing(path).err();
+            let problem = there.unwrap_or_else(|| FileErrorKind::Io(error).at(Place::File));
             problem.in_file(path, Some(self.format))
         })?;
         let mut written = Written::of(Vec::new(), Vec::new(), false);
@@ -228,7 +247,10 @@ impl Document {
             let placed = placement.place(beside).map_err(in_file)?;
             let mut files = self.content.files(path, &placed).map_err(in_file)?;
             if let Some(main) = files.last_mut().filter(|_| !is_over) {
-                main.place = OutputPlace::Replaced;
+                main.place = match options.replace_existing {
+                    true => OutputPlace::Replaced,
+                    false => OutputPlace::Free,
+                };
             }
             let replaced = files
                 .iter()
@@ -257,6 +279,7 @@ impl Document {
                 }
                 // Somebody else took a name: look again.
                 Err((_, error)) if error.kind() == io::ErrorKind::AlreadyExists && tries < 16 => {
+                    options.check_existing(path).map_err(in_file)?;
                     tries += 1;
                 }
                 Err((path, error)) => {

@@ -316,7 +316,7 @@ fn what_cannot_be_added_changes_nothing() {
             &[],
             "face 0, corner 2: index 9 is past the last vertex (8)",
         ),
-        (&[shared(&[])], &[], "the new mesh \"new\" has no faces"),
+        (&[shared(&[])], &[], "mesh 0, \"new\": it has no faces"),
         (
             &[NewMesh::new("", NewVertices::Shared(1), &[[0, 1, 2]])],
             &[],

@@ -24,13 +24,13 @@ impl GltfFile {
         let growth = Growth::new(&root, &self.container, &self.buffers);
         check_shared(meshes, self.view.entries.meshes.len())?;
         let mut new = NewMeshes::new(&root, growth.buffer, growth.start)?;
-        for mesh in meshes {
+        for (number, mesh) in meshes.iter().enumerate() {
             let shared = |number: usize| SharedVertices {
                 primitive: self.view.entries.first_primitives[number],
                 count: self.view.entries.meshes[number].mesh.vertex_count(),
             };
             let added = new.add(mesh, shared);
-            added.map_err(|kind| kind.at(Place::File))?;
+            added.map_err(|kind| kind.at(mesh.place(number)))?;
         }
         let (bytes, mut additions) = new.finish();
         for value in values {

@@ -14,7 +14,7 @@ use super::scene::{Drawn, INSTANCES, Scenes};
 use crate::attribute::Attribute;
 use crate::faces::Faces;
 use crate::files::error::{FileErrorKind, Problem};
-use crate::files::new_mesh::{NewMesh, NewVertices, vertex_count};
+use crate::files::new_mesh::{NewMesh, vertex_count};
 
 /// What a buffer view is bound to.
 const VERTICES: u32 = 34962;
@@ -55,32 +55,40 @@ impl<'a> NewMeshes<'a> {
         })
     }
 
-    /// Adds a mesh; `shared` are the vertices of a mesh of the document.
+    /// Adds a mesh; `shared` are the vertices of a mesh of the document. Of a mesh without vertices and
+    /// faces only a node is left, as no accessor may be empty.
     ///
     /// # Errors
-    /// It has no faces, or they name vertices that are not there, or glTF cannot store an attribute.
+    /// It has vertices and no faces, or they name vertices that are not there, or glTF cannot store an
+    /// attribute.
     pub(super) fn add(
         &mut self,
         mesh: &NewMesh<'_>,
         shared: impl Fn(usize) -> SharedVertices,
     ) -> Result<(), FileErrorKind> {
+        let attributes = mesh.vertices.attributes();
         if mesh.faces.is_empty() {
-            let text = format!("the new mesh {:?} has no faces", mesh.name);
+            if attributes.is_ok_and(|all| all.iter().all(Attribute::is_empty)) {
+                self.add_node(mesh.name, None, None);
+                return Ok(());
+            }
+            let text = "it has no faces, and no meshes of vertices alone are made in a glTF: leave it out, or \
+                        create a .ply or an .obj";
             return Err(FileErrorKind::unsupported(text));
         }
 
         // The vertices: what the primitive has beside its faces, as members of its JSON.
-        let (count, mut members, weights, drawn) = match mesh.vertices {
-            NewVertices::Shared(number) => {
+        let (count, mut members, weights, drawn) = match attributes {
+            Err(number) => {
                 let SharedVertices { primitive, count } = shared(number);
                 Faces::new(mesh.faces, count).map_err(FileErrorKind::Order)?;
                 let (members, weights) = self.shared(primitive);
                 let drawn = self.scenes.first_drawn(primitive.mesh);
                 (count, members, weights, drawn)
             }
-            NewVertices::Stored(attributes) => {
-                let count = vertex_count(attributes, mesh.faces)?;
-                (count, self.stored(attributes)?, None, None)
+            Ok(attributes) => {
+                let count = vertex_count(&attributes, mesh.faces)?;
+                (count, self.stored(&attributes)?, None, None)
             }
         };
 
@@ -89,12 +97,13 @@ impl<'a> NewMeshes<'a> {
         members.push(format!(r#""indices":{indices},"mode":4"#));
 
         // The mesh, and a node that draws it.
-        let name = NewJson::from(mesh.name);
         let primitive = members.join(",");
-        let weights = weights.map_or(String::new(), |raw| format!(r#","weights":{raw}"#));
-        let json = format!(r#"{{"name":{name},"primitives":[{{{primitive}}}]{weights}}}"#);
-        self.additions.element("meshes", json);
-        self.draw(mesh.name, drawn);
+        let mut members: Vec<String> = name_member(mesh.name).into_iter().collect();
+        members.push(format!(r#""primitives":[{{{primitive}}}]"#));
+        members.extend(weights.map(|raw| format!(r#""weights":{raw}"#)));
+        self.additions
+            .element("meshes", format!("{{{}}}", members.join(",")));
+        self.add_node(mesh.name, Some(self.next_mesh), drawn);
         self.next_mesh += 1;
         Ok(())
     }
@@ -208,13 +217,10 @@ impl<'a> NewMeshes<'a> {
         self.next_accessor - 1
     }
 
-    /// Adds a node that draws the next mesh where and as `drawn` is.
-    fn draw(&mut self, name: &str, drawn: Option<Drawn<'_>>) {
-        let mut members = vec![format!(
-            r#""mesh":{},"name":{}"#,
-            self.next_mesh,
-            NewJson::from(name)
-        )];
+    /// Adds a node that draws a mesh, if any, where and as `drawn` is.
+    fn add_node(&mut self, name: &str, mesh: Option<usize>, drawn: Option<Drawn<'_>>) {
+        let mesh = mesh.map(|mesh| format!(r#""mesh":{mesh}"#));
+        let mut members: Vec<String> = mesh.into_iter().chain(name_member(name)).collect();
         let node_number = self.scenes.new_node();
         match drawn {
             // A skinned mesh stands where its joints are, whatever is above it.
@@ -249,4 +255,9 @@ impl<'a> NewMeshes<'a> {
         self.scenes.finish(&mut self.additions);
         (self.bytes, self.additions)
     }
+}
+
+/// The member that says how something is called, if it has a name.
+fn name_member(name: &str) -> Option<String> {
+    (!name.is_empty()).then(|| format!(r#""name":{}"#, NewJson::from(name)))
 }

@@ -41,11 +41,12 @@
 //! [`reader`] finds the statements and [`statement`] cuts them, [`runs`] and [`state`] tell which faces
 //! may change places, [`comments`] keeps data in comments,
 //! [`mod@materials`] and [`paths`] read the other files that it names, [`notation`] writes corners, [`select`] what a
-//! selection leaves, [`attributes`] reads values.
+//! selection leaves, [`mod@create`] new meshes, [`attributes`] reads values.
 
 mod attributes;
 mod comments;
 mod corners;
+mod create;
 mod kinds;
 mod materials;
 mod notation;
@@ -63,6 +64,7 @@ use crate::files::content::ReadResult;
 use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::format::Format;
+use crate::files::new_mesh::NewMesh;
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
 use crate::files::orders::RecordOrders;
@@ -72,6 +74,12 @@ use crate::files::text::{content_end, line_of, shown};
 use materials::KnownMaterials;
 use notation::ObjNotation;
 use reader::ObjReader;
+
+/// An OBJ file of new meshes.
+pub(super) fn create(meshes: &[NewMesh<'_>]) -> ReadResult {
+    let bytes = create::bytes(meshes)?;
+    read(bytes, Surroundings::Nothing, &ReadOptions::default())
+}
 
 /// Reads an OBJ file.
 pub(super) fn read(

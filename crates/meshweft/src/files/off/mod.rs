@@ -27,6 +27,7 @@
 //!   are none.
 
 mod columns;
+mod create;
 mod header;
 mod lines;
 mod notation;
@@ -38,6 +39,7 @@ use super::content::ReadResult;
 use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
 use super::format::Format;
+use super::new_mesh::{self, NewMesh};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::RecordOrders;
@@ -49,6 +51,13 @@ use crate::index::index32;
 use lines::Lines;
 use notation::OffNotation;
 use records::{FaceLines, OffRecords};
+
+/// An OFF file of a new mesh.
+pub(super) fn create(meshes: &[NewMesh<'_>]) -> ReadResult {
+    let mesh = new_mesh::only(meshes, Format::Off)?;
+    let bytes = create::bytes(mesh).map_err(|kind| kind.at(mesh.place(0)))?;
+    read(bytes, &ReadOptions::default())
+}
 
 /// Reads an OFF file.
 pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {

@@ -5,26 +5,28 @@ use std::collections::BTreeSet;
 use super::attributes::{COLORS, TEXTURES, is_unsigned};
 use crate::attribute::{Attribute, ComponentType, Domain, Semantic, Values};
 use crate::files::error::FileErrorKind;
-use crate::files::new_mesh::{NewMesh, NewVertices, vertex_count};
+use crate::files::new_mesh::{NewMesh, in_one_line, nothing_to_share, vertex_count};
 
 /// The bytes of a file with this mesh.
 ///
 /// # Errors
 /// The mesh shares vertices, or a PLY file cannot hold an attribute.
 pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
-    let NewVertices::Stored(attributes) = mesh.vertices else {
-        return refused("a new file has no vertices that could be shared: give their attributes");
-    };
-    let vertex_count = vertex_count(attributes, mesh.faces)?;
-    let vertices = columns(attributes, Domain::Vertex)?;
-    let faces = columns(attributes, Domain::Face)?;
-    let textures = texture_list(attributes)?;
+    let attributes = mesh.vertices.attributes().map_err(nothing_to_share)?;
+    let vertex_count = vertex_count(&attributes, mesh.faces)?;
+    let vertices = columns(&attributes, Domain::Vertex)?;
+    let faces = columns(&attributes, Domain::Face)?;
+    let textures = texture_list(&attributes)?;
 
     // The header.
     let mut header = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment made by meshweft {}\nelement vertex {vertex_count}\n",
+        "ply\nformat binary_little_endian 1.0\ncomment made by meshweft {}\n",
         env!("CARGO_PKG_VERSION")
     );
+    if !mesh.name.is_empty() {
+        header += &format!("comment mesh {}\n", in_one_line(mesh.name));
+    }
+    header += &format!("element vertex {vertex_count}\n");
     declare(&vertices, &mut header);
     // Older readers know no other type of corner.
     let corner = match i32::try_from(vertex_count) {

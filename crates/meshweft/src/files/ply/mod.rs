@@ -46,7 +46,7 @@ use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::{check_face_count, check_vertex_count};
 use crate::files::format::Format;
-use crate::files::new_mesh::NewMesh;
+use crate::files::new_mesh::{self, NewMesh};
 use crate::files::note::Note;
 use crate::files::options::ReadOptions;
 use crate::files::orders::RecordOrders;
@@ -62,14 +62,8 @@ use rows::{Ascii, Binary};
 
 /// A PLY file of a new mesh.
 pub(super) fn create(meshes: &[NewMesh<'_>]) -> ReadResult {
-    let [mesh] = meshes else {
-        let text = format!(
-            "a PLY file holds one mesh, not {}: create a .glb",
-            meshes.len()
-        );
-        return Err(FileErrorKind::unsupported(text).at(Place::File));
-    };
-    let bytes = create::bytes(mesh).map_err(|kind| kind.at(Place::File))?;
+    let mesh = new_mesh::only(meshes, Format::Ply)?;
+    let bytes = create::bytes(mesh).map_err(|kind| kind.at(mesh.place(0)))?;
     read(bytes, &ReadOptions::default())
 }
 

@@ -14,9 +14,9 @@ use crate::files::slots::Spans;
 use crate::limits::Limits;
 
 /// Where the first facet starts: after the header and the count.
-const HEADER: usize = 84;
+pub(super) const HEADER: usize = 84;
 /// A normal, three positions, two bytes of attributes.
-const FACET: usize = 50;
+pub(super) const FACET: usize = 50;
 const NORMAL: usize = 12;
 const POSITION: usize = 12;
 

@@ -15,11 +15,12 @@
 //! that is; of a binary file also the two bytes at the end of a facet, as a number.
 //!
 //! [`mod@ascii`] and [`binary`] find the [`facets`], [`attributes`] reads their values, and [`select`]
-//! writes those that a selection leaves.
+//! writes those that a selection leaves, [`mod@create`] those of a new mesh.
 
 mod ascii;
 mod attributes;
 mod binary;
+mod create;
 mod facets;
 mod select;
 
@@ -31,6 +32,7 @@ use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
 use super::face_records::{FaceRecords, check_vertex_count};
 use super::format::Format;
+use super::new_mesh::{self, NewMesh};
 use super::note::Note;
 use super::options::ReadOptions;
 use super::orders::RecordOrders;
@@ -42,6 +44,13 @@ use crate::limits::Limits;
 use ascii::AsciiNotation;
 use binary::BinaryNotation;
 use facets::Facets;
+
+/// A binary STL file of a new mesh.
+pub(super) fn create(meshes: &[NewMesh<'_>]) -> ReadResult {
+    let mesh = new_mesh::only(meshes, Format::Stl)?;
+    let bytes = create::bytes(mesh).map_err(|kind| kind.at(mesh.place(0)))?;
+    read(bytes, &ReadOptions::default())
+}
 
 /// Reads an STL file.
 ///

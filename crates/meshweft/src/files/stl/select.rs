@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::ascii::{self, AsciiNotation};
 use super::binary::{self, BinaryNotation};
-use super::facets::FacetPlaces;
+use super::facets::{FacetPlaces, normal_of};
 use crate::files::error::Problem;
 use crate::files::rewrite::Notation;
 use crate::files::select::PlannedTriangle;
@@ -159,40 +159,5 @@ impl StlSelect<'_> {
     fn places_of(&self, record: usize) -> Option<FacetPlaces> {
         let stored = &self.source.stored;
         (self.places)(stored.source, stored.faces.span(record))
-    }
-}
-
-/// The unit normal of a triangle; zeros if it has no area.
-fn normal_of(corners: [[f32; 3]; 3]) -> [f32; 3] {
-    let [a, b, c] = corners.map(|corner| corner.map(f64::from));
-    let side = |to: [f64; 3]| [0, 1, 2].map(|axis| to[axis] - a[axis]);
-    let (u, v) = (side(b), side(c));
-    let cross = [1, 2, 0].map(|i: usize| {
-        let j = (i + 1) % 3;
-        u[i] * v[j] - u[j] * v[i]
-    });
-    let length = cross.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if !(length > 0.0 && length.is_finite()) {
-        return [0.0; 3];
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "of length one")]
-    cross.map(|x| (x / length) as f32)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_normal_points_to_where_the_corners_turn_left() {
-        let corners = [[0.0, 0.0, 5.0], [2.0, 0.0, 5.0], [0.0, 3.0, 5.0]];
-        assert_eq!(normal_of(corners), [0.0, 0.0, 1.0]);
-        let [a, b, c] = corners;
-        assert_eq!(normal_of([b, a, c]), [0.0, 0.0, -1.0]);
-        assert_eq!(normal_of([a, a, c]), [0.0; 3]);
-        assert_eq!(
-            normal_of([[0.0, 0.0, 0.0], [0.0, 1e-30, 0.0], [0.0, 0.0, 1e-30]]),
-            [1.0, 0.0, 0.0]
-        );
     }
 }
