@@ -235,6 +235,16 @@ async function checkCreated(folder, tally) {
         }
         console.log(`append: ${name} from nothing: ${messages.length - faults.length} findings, all of unused attributes`);
     }
+    for (const [name, expected] of [["plain.glb", 1], ["several.glb", 2], ["several.gltf", 2]]) {
+        const { messages } = await findings(join(folder, name), name);
+        // A node of an empty mesh, and faces without an area, are what was given.
+        const given = ["NODE_EMPTY", "ACCESSOR_INDEX_TRIANGLE_DEGENERATE"];
+        const faults = messages.filter(({ code }) => !given.includes(code));
+        for (const { code, pointer, message } of faults) tally.problems.push(`${name}: ${code} at ${pointer}: ${message}`);
+        const { primitives } = await loadScene(join(folder, name));
+        if (primitives.length !== expected) tally.problems.push(`${name}: three.js loads ${primitives.length} meshes`);
+        console.log(`append: ${name} of plain meshes: ${messages.length - faults.length} findings, all of what was given`);
+    }
 }
 
 const scratch = kept ?? (await mkdtemp(join(tmpdir(), "meshweft-append-")));

@@ -1,4 +1,4 @@
-"""trimesh reads the PLY file that meshweft makes from nothing: it must hold what was given.
+"""trimesh reads the files that meshweft makes from nothing: they must hold what was given.
 
 Usage: python created.py MESHWEFT_APPEND
 """
@@ -23,12 +23,45 @@ EXPECTED = {
     "age": np.array([0.25, 1e300, -2, 4]),
     "part": np.array([-7, 70_000]),
 }
+# A third mesh of those files, after one without vertices and faces.
+MORE = np.array([[1 / 3, -1.25e-7, 3e20], [-16_777_216, 0, 1.1754944e-38], [0.1, 7, -2e-5]], np.float32)
+MORE_FACES = np.array([[2, 0, 1], [0, 0, 1]])
+
+
+def triangles(path: Path) -> np.ndarray:
+    """The corners of all faces of a file, mesh after mesh."""
+    loaded = trimesh.load(path, process=False)
+    meshes = loaded.geometry.values() if isinstance(loaded, trimesh.Scene) else [loaded]
+    return np.concatenate([mesh.vertices.astype(np.float32)[mesh.faces] for mesh in meshes])
+
+
+def plain(folder: Path) -> int:
+    """Meshes of positions and faces alone, in every format."""
+    first = EXPECTED["positions"][EXPECTED["faces"]]
+    both = np.concatenate([first, MORE[MORE_FACES]])
+    expected = {f"plain.{ending}": first for ending in ["glb", "ply", "obj", "off", "stl"]}
+    expected |= {f"several.{ending}": both for ending in ["glb", "gltf", "obj"]}
+    different = 0
+    for name, corners in expected.items():
+        found = triangles(folder / name)
+        if not np.array_equal(found, corners):
+            print(f"DIFFERENT: {name}: {found.tolist()}")
+            different += 1
+    scene = trimesh.load(folder / "several.glb", process=False)
+    names = list(scene.geometry)
+    if names != ["plain", "more # 2"] or "nothing" not in scene.graph.nodes:
+        print(f"DIFFERENT: several.glb: {names}, {list(scene.graph.nodes)}")
+        different += 1
+    if not different:
+        print(f"append: plain meshes from nothing, trimesh: {', '.join(expected)} as given")
+    return different
 
 
 def main(program: str) -> int:
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([program, "create", folder], check=True)
         mesh = trimesh.load(Path(folder) / "new.ply", process=False)
+        failed = plain(Path(folder))
     raw = mesh.metadata["_ply_raw"]
     columns = raw["vertex"]["data"]
     found = {
@@ -46,7 +79,7 @@ def main(program: str) -> int:
         print(f"DIFFERENT: new.ply: {name}: {found[name].tolist()}")
     if not different:
         print(f"append: new.ply from nothing, trimesh: {', '.join(EXPECTED)} as given")
-    return bool(different)
+    return bool(different or failed)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use meshweft::attribute::{Attribute, AttributeInfo, Domain, Semantic, Values};
-use meshweft::files::{Document, Format, NewMesh, NewVertices};
+use meshweft::files::{self, Document, Format, NewMesh, NewVertices};
 
 /// Four vertices, two faces.
 const FACES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 3]];
@@ -17,7 +17,15 @@ const POSITIONS: [[f32; 3]; 4] = [
 /// As bytes, of three and of four components.
 const COLORS: [u8; 16] = [255, 0, 0, 255, 0, 254, 1, 128, 2, 3, 253, 64, 9, 8, 7, 0];
 
-/// Writes `new.glb`, `new.gltf` and `new.ply`.
+/// Positions that need all their digits, or many zeros.
+const MORE: [[f32; 3]; 3] = [
+    [1.0 / 3.0, -1.25e-7, 3e20],
+    [-16_777_216.0, 0.0, 1.1754944e-38],
+    [0.1, 7.0, -2e-5],
+];
+
+/// Writes `new.glb`, `new.gltf` and `new.ply` of attributes, `plain` files of positions and faces alone, and
+/// `several` meshes in formats that hold such.
 pub(crate) fn all(folder: &Path) -> Result<(), Box<dyn Error>> {
     let files = [
         (Format::Glb, "new.glb", of_gltf()),
@@ -28,6 +36,23 @@ pub(crate) fn all(folder: &Path) -> Result<(), Box<dyn Error>> {
         let path = folder.join(name);
         let mesh = NewMesh::new("new", NewVertices::Stored(&attributes), &FACES);
         Document::create(format, &path, &[mesh])?.write(&path)?;
+    }
+
+    let plain = NewMesh::plain("plain", &POSITIONS, &FACES);
+    let several = [
+        plain,
+        NewMesh::plain("nothing", &[], &[]),
+        NewMesh::plain("more # 2", &MORE, &[[2, 0, 1], [0, 0, 1]]),
+    ];
+    for ending in ["glb", "ply", "obj", "off", "stl"] {
+        files::create(&folder.join("plain").with_extension(ending), &[plain], true)?;
+    }
+    for ending in ["glb", "gltf", "obj"] {
+        files::create(
+            &folder.join("several").with_extension(ending),
+            &several,
+            true,
+        )?;
     }
     Ok(())
 }

@@ -4,7 +4,7 @@
 //! `meshweft-append scene IN OUT` adds to each of the first meshes every second of its faces, over its
 //! vertices, and one mesh of its own; a line of output tells of each new mesh which one it shares
 //! vertices with. `meshweft-append select IN OUT` leaves every second face of each mesh.
-//! `meshweft-append create FOLDER` makes a GLB, a glTF and a PLY.
+//! `meshweft-append create FOLDER` makes files from nothing, of every format of which such are made.
 
 mod create;
 mod scene;
