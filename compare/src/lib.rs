@@ -11,6 +11,8 @@ use meshweft::files::Document;
 use meshweft::order::{KCacheReorder, baselines, vertex_fetch};
 use meshweft::{CacheModel, Limits, Mesh, cache};
 
+#[cfg(feature = "draco")]
+pub mod codecs;
 pub mod counting;
 pub mod oracle;
 pub mod process;

@@ -10,7 +10,13 @@ pub fn medians<const N: usize, T>(
     repetitions: usize,
     mut jobs: [&mut dyn FnMut() -> T; N],
 ) -> [f64; N] {
-    let mut seconds = [const { Vec::new() }; N];
+    let medians = medians_of(repetitions, &mut jobs);
+    medians.try_into().expect("a median for each job")
+}
+
+/// As [`medians`], for any number of jobs.
+pub fn medians_of<T>(repetitions: usize, jobs: &mut [impl FnMut() -> T]) -> Vec<f64> {
+    let mut seconds = vec![Vec::new(); jobs.len()];
     for _ in 0..repetitions.max(1) {
         for (job, seconds) in jobs.iter_mut().zip(&mut seconds) {
             let start = Instant::now();
@@ -18,7 +24,7 @@ pub fn medians<const N: usize, T>(
             seconds.push(start.elapsed().as_secs_f64());
         }
     }
-    seconds.map(median)
+    seconds.into_iter().map(median).collect()
 }
 
 /// The median time of three runs in seconds (of one, if it takes long), and what the last one made.
