@@ -22,7 +22,8 @@ pub(crate) struct Row {
 
 /// The figures of a row.
 pub(crate) struct Figures {
-    vertex_count: usize,
+    /// As they come back.
+    pub(crate) vertex_count: usize,
     /// Bits of the faces alone, for each face.
     pub(crate) connectivity: Option<f64>,
     /// All bytes, if there are positions among them.
@@ -228,4 +229,5 @@ pub(crate) fn print_legend() {
     println!(
         "needs, which is not timed. NVIDIA: invocations a used vertex of the decoded order, FIFO: misses a face."
     );
+    println!("Means are geometric.");
 }

@@ -16,6 +16,7 @@ pub(crate) struct Summary {
 /// A mesh and its rows.
 struct Measured {
     name: String,
+    vertex_count: usize,
     /// Faces with a repeated vertex.
     flat_count: usize,
     rows: Vec<Row>,
@@ -31,11 +32,23 @@ const COMPARED: [Compared; 4] = [
     ("decode", false, |it| Some(it.decoding)),
 ];
 
+impl Measured {
+    /// Whether Draco gives it back with all faces and no vertex split.
+    fn is_kept_by_draco(&self) -> bool {
+        let is_kept =
+            |it: &Figures| it.vertex_count == self.vertex_count && it.difference == Some([0, 0]);
+        BASES
+            .iter()
+            .all(|base| named(&self.rows, base).is_some_and(is_kept))
+    }
+}
+
 impl Summary {
     pub(crate) fn add(&mut self, name: &str, input: &Input, rows: Vec<Row>) {
         let is_flat = |&&[a, b, c]: &&[u32; 3]| a == b || b == c || c == a;
         self.meshes.push(Measured {
             name: name.to_owned(),
+            vertex_count: input.positions.len(),
             flat_count: input.faces.iter().filter(is_flat).count(),
             rows,
         });
@@ -43,66 +56,64 @@ impl Summary {
 
     /// Geometric means of each codec over Draco's, and the worst mesh of each; last those of the library.
     pub(crate) fn print(&self) {
-        let Some(first) = self.meshes.first() else {
-            return;
-        };
-        let codecs = first.rows.iter().map(|row| &row.codec);
-        let ours = first.rows.iter().filter(|row| row.is_ours);
         for base in BASES {
-            println!(
-                "\n### Over {base}: mean of {} meshes (the worst)\n",
-                self.meshes.len()
-            );
-            println!(
-                "| codec | {} |",
-                COMPARED.map(|(name, ..)| name).join(" | ")
-            );
-            println!("|---|{}", "--:|".repeat(COMPARED.len()));
-            for codec in codecs.clone() {
-                let cells = COMPARED.map(|compared| {
-                    let ratio = self.ratio(codec, base, compared);
-                    ratio.unwrap_or_else(|| "–".to_owned())
-                });
-                println!("| {codec} | {} |", cells.join(" | "));
-            }
+            self.print_over(base);
         }
         self.print_differences();
 
-        println!();
-        for codec in ours.map(|row| &row.codec) {
+        let all: Vec<&Measured> = self.meshes.iter().collect();
+        let mut kept = all.clone();
+        kept.retain(|mesh| mesh.is_kept_by_draco());
+        self.print_ours("", &all);
+        self.print_ours(
+            " that Draco gives back with all faces and no vertex split",
+            &kept,
+        );
+    }
+
+    /// A table of all codecs.
+    fn print_over(&self, base: &str) {
+        println!(
+            "\n### Over {base}: mean of {} meshes (the worst)\n",
+            self.meshes.len()
+        );
+        println!(
+            "| codec | {} |",
+            COMPARED.map(|(name, ..)| name).join(" | ")
+        );
+        println!("|---|{}", "--:|".repeat(COMPARED.len()));
+        for row in self.codecs() {
+            let cells = COMPARED.map(|compared| {
+                let ratio = ratio(&self.meshes, &row.codec, base, compared);
+                ratio.unwrap_or_else(|| "–".to_owned())
+            });
+            println!("| {} | {} |", row.codec, cells.join(" | "));
+        }
+    }
+
+    /// The library's codecs on some of the meshes.
+    fn print_ours(&self, which: &str, meshes: &[&Measured]) {
+        let [first, second] = BASES;
+        println!(
+            "\n{} meshes{which}, geometric mean (the worst):",
+            meshes.len()
+        );
+        for row in self.codecs().filter(|row| row.is_ours) {
             for compared in COMPARED {
-                let over = |base| self.ratio(codec, base, compared);
-                if let [Some(over_7), Some(over_10)] = BASES.map(over) {
+                let over = |base| ratio(meshes.iter().copied(), &row.codec, base, compared);
+                if let (Some(over_first), Some(over_second)) = (over(first), over(second)) {
                     println!(
-                        "{codec}, {}: geometric mean (worst) over {} {over_7}, over {} {over_10}",
-                        compared.0, BASES[0], BASES[1]
+                        "{}, {}: over {first} {over_first}, over {second} {over_second}",
+                        row.codec, compared.0
                     );
                 }
             }
         }
     }
 
-    /// A mean and the worst mesh; none where nothing can be compared.
-    fn ratio(
-        &self,
-        codec: &str,
-        base: &str,
-        (_, is_less_better, figure): Compared,
-    ) -> Option<String> {
-        let ratio = |mesh: &Measured| {
-            let of = |codec| named(&mesh.rows, codec).and_then(figure);
-            Some((of(codec)? / of(base)?, mesh.name.clone()))
-        };
-        let ratios: Vec<(f64, String)> = self.meshes.iter().filter_map(ratio).collect();
-        let by_ratio = |a: &&(f64, String), b: &&(f64, String)| a.0.total_cmp(&b.0);
-        let worst = match is_less_better {
-            true => ratios.iter().max_by(by_ratio),
-            false => ratios.iter().min_by(by_ratio),
-        };
-        let (worst, name) = worst?;
-        let sum: f64 = ratios.iter().map(|(ratio, _)| ratio.ln()).sum();
-        let mean = (sum / ratios.len() as f64).exp();
-        Some(format!("{mean:.3} ({worst:.3} {name})"))
+    /// A row of each codec.
+    fn codecs(&self) -> impl Iterator<Item = &Row> {
+        self.meshes.iter().take(1).flat_map(|mesh| &mesh.rows)
     }
 
     /// Where a codec did not give back what it was given.
@@ -147,4 +158,27 @@ impl Summary {
         let wrong = differences.into_iter().find(|(row, _)| row.is_exact);
         wrong.map_or(Ok(()), |(_, what)| Err(what))
     }
+}
+
+/// The geometric mean of a codec's figures over another's, and the worst mesh; none where nothing can be compared.
+fn ratio<'a>(
+    meshes: impl IntoIterator<Item = &'a Measured>,
+    codec: &str,
+    base: &str,
+    (_, is_less_better, figure): Compared,
+) -> Option<String> {
+    let ratio = |mesh: &'a Measured| {
+        let of = |codec| named(&mesh.rows, codec).and_then(figure);
+        Some((of(codec)? / of(base)?, &mesh.name))
+    };
+    let ratios: Vec<(f64, &String)> = meshes.into_iter().filter_map(ratio).collect();
+    let by_ratio = |a: &&(f64, &String), b: &&(f64, &String)| a.0.total_cmp(&b.0);
+    let worst = match is_less_better {
+        true => ratios.iter().max_by(by_ratio),
+        false => ratios.iter().min_by(by_ratio),
+    };
+    let (worst, name) = worst?;
+    let sum: f64 = ratios.iter().map(|(ratio, _)| ratio.ln()).sum();
+    let mean = (sum / ratios.len() as f64).exp();
+    Some(format!("{mean:.3} ({worst:.3} {name})"))
 }
