@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use compare::counting::{Counting, with_peak};
 use compare::timing;
-use meshweft::files::{Document, Edit, Format};
+use meshweft::files::{Document, Edit, Format, NewMesh};
 use meshweft::order::{KCacheReorder, vertex_fetch};
 use meshweft::{CacheModel, FaceOrder, Limits, VertexOrder};
 
@@ -53,8 +53,8 @@ fn measure(side: u32, folder: &Path) -> Result<(), String> {
     let grid = Grid::new(side);
     for (name, bytes) in [
         ("glb", grid.glb()),
-        ("ply", grid.ply()),
-        ("stl", grid.stl()),
+        ("ply", grid.made(Format::Ply)),
+        ("stl", grid.made(Format::Stl)),
         ("obj", grid.obj()),
         ("off", grid.off()),
     ] {
@@ -197,36 +197,15 @@ impl Grid {
         parts.concat()
     }
 
-    fn ply(&self) -> Vec<u8> {
-        let mut bytes = format!(
-            "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty \
-             float y\nproperty float z\nelement face {}\nproperty list uchar int vertex_indices\n\
-             end_header\n",
-            self.vertices.len(),
-            self.faces.len()
-        )
-        .into_bytes();
-        bytes.extend(self.vertices.iter().flatten().flat_map(|c| c.to_le_bytes()));
-        for face in &self.faces {
-            bytes.push(3);
-            bytes.extend(face.iter().flat_map(|v| v.to_le_bytes()));
-        }
-        bytes
+    /// Positions and faces, as the library writes them.
+    fn made(&self, format: Format) -> Vec<u8> {
+        let grid = NewMesh::plain("", &self.vertices, &self.faces);
+        let document = Document::create(format, Path::new("grid"), &[grid]);
+        let bytes = document.and_then(|document| document.to_main_bytes());
+        bytes.expect("a sound grid")
     }
 
-    fn stl(&self) -> Vec<u8> {
-        let count = u32::try_from(self.faces.len()).expect("fewer than 2^32 faces");
-        let mut bytes = vec![b' '; 80];
-        bytes.extend(count.to_le_bytes());
-        for face in &self.faces {
-            bytes.extend([0_u8; 12]);
-            let corners = face.iter().flat_map(|&v| self.vertices[v as usize]);
-            bytes.extend(corners.flat_map(f32::to_le_bytes));
-            bytes.extend([0_u8; 2]);
-        }
-        bytes
-    }
-
+    /// Text with six places, as most programs write it.
     fn obj(&self) -> Vec<u8> {
         let mut text = String::new();
         for [x, y, z] in &self.vertices {

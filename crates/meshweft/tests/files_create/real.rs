@@ -63,7 +63,7 @@ fn small_files() {
 }
 
 #[test]
-#[ignore = "takes minutes: all files"]
+#[ignore = "takes a minute: all files"]
 fn all_files() {
     check_all(u64::MAX);
 }
