@@ -21,7 +21,12 @@ pub(crate) struct Compress {
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// Where to write: a .mwz file
-    #[arg(short, long, value_name = "OUT.mwz", required_unless_present = "dry_run")]
+    #[arg(
+        short,
+        long,
+        value_name = "OUT.mwz",
+        required_unless_present = "dry_run"
+    )]
     output: Option<PathBuf>,
     /// Do everything but write
     #[arg(long)]
@@ -30,14 +35,29 @@ pub(crate) struct Compress {
     #[arg(long, value_name = "TIER", default_value = "fast", display_order = 1)]
     tier: TierName,
     /// lossless, or 1 to 30: the largest extent of the file is two to the power of this, minus one, steps long
-    #[arg(long, value_name = "BITS", default_value = "lossless", display_order = 1)]
+    #[arg(
+        long,
+        value_name = "BITS",
+        default_value = "lossless",
+        display_order = 1
+    )]
     position_bits: PositionBits,
     /// Round positions to multiples of a power of two, in their units: files with one step keep meeting
-    #[arg(long, value_name = "STEP", display_order = 1, conflicts_with = "position_bits")]
+    #[arg(
+        long,
+        value_name = "STEP",
+        display_order = 1,
+        conflicts_with = "position_bits"
+    )]
     position_step: Option<f64>,
     /// Where each mesh begins: min-buffer (each vertex is sent once to the smallest buffer), min-bits, or a
     /// number of a vertex; 0 gives a decompressed file the same bytes again
-    #[arg(long, value_name = "ROOT", default_value = "min-buffer", display_order = 2)]
+    #[arg(
+        long,
+        value_name = "ROOT",
+        default_value = "min-buffer",
+        display_order = 2
+    )]
     root: Root,
     /// Leave out normals, texture coordinates and whatever else is stored with vertices, corners and faces
     #[arg(long, display_order = 2)]
@@ -119,7 +139,10 @@ pub(crate) fn run(arguments: &Compress) -> Result<()> {
 
     // What cannot be written is reported before a file is read.
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
-        if output.extension().is_none_or(|it| !it.eq_ignore_ascii_case("mwz")) {
+        if output
+            .extension()
+            .is_none_or(|it| !it.eq_ignore_ascii_case("mwz"))
+        {
             let text = format!("{}: give the output the ending .mwz", output.display());
             return Err(Usage(text).into());
         }
@@ -140,7 +163,9 @@ pub(crate) fn run(arguments: &Compress) -> Result<()> {
     report.seconds = Some(start.elapsed().as_secs_f64());
 
     // What was done.
-    arguments.report.notes(&output::note_lines(&report.file, &report.notes))?;
+    arguments
+        .report
+        .notes(&output::note_lines(&report.file, &report.notes))?;
     arguments.report.text(&text(&report))?;
     Ok(arguments.report.json_line(&report.to_json())?)
 }

@@ -63,9 +63,10 @@ pub(crate) fn run(arguments: &Decompress) -> Result<()> {
     let faces: usize = meshes.iter().map(|(_, mesh)| mesh.face_count()).sum();
     let output = arguments.output.display().to_string();
     arguments.report.text(&format!(
-        "{} -> {output}: {} meshes, {vertices} vertices, {faces} faces",
+        "{} -> {output}: {} {}, {vertices} vertices, {faces} faces",
         name(),
         meshes.len(),
+        if meshes.len() == 1 { "mesh" } else { "meshes" },
     ))?;
     let members = json!({
         "file": name(),

@@ -4,6 +4,7 @@ use std::fmt;
 
 use anyhow::Error;
 use meshweft::files::{FileError, FileErrorKind};
+use meshweft::operations::CompressError;
 
 /// What the command line asks for cannot be done; exit code 2.
 #[derive(Debug)]
@@ -23,6 +24,21 @@ impl std::error::Error for Usage {}
 /// is named here.
 pub(crate) fn message(error: &Error) -> String {
     let text = format!("{error:#}");
+    match error.downcast_ref() {
+        Some(CompressError::Attributes { .. }) => {
+            return text.replace("drop_attributes", "--drop-attributes");
+        }
+        Some(CompressError::Polygons { .. }) => {
+            return text.replace("with triangles", "with --triangles");
+        }
+        Some(CompressError::WidePositions { .. }) => {
+            return text.replace(
+                "a position step or a number of position bits",
+                "--position-step or --position-bits",
+            );
+        }
+        _ => {}
+    }
     match error.downcast_ref().map(|error: &FileError| &error.kind) {
         Some(FileErrorKind::Unknown { name, .. }) => format!(
             "{text}. Leave out --strict to keep what it may depend on, or say \

@@ -2,6 +2,7 @@
 
 #![cfg(feature = "files")]
 
+#[path = "data/folder.rs"]
 mod data;
 
 use meshweft::attribute::{Attribute, Semantic};
@@ -36,8 +37,8 @@ fn corners(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> Vec<[[u32; 3]; 3]> {
 
 #[test]
 fn every_file_at_hand_comes_back_from_either_precision() {
-    let Some(folder) = data::meshes() else { return };
-    let mut paths: Vec<_> = std::fs::read_dir(folder)
+    let Some(folder) = data::folder() else { return };
+    let mut paths: Vec<_> = std::fs::read_dir(folder.join("meshes"))
         .unwrap()
         .map(|entry| entry.unwrap().path())
         .filter(|path| Format::of_path(path).is_some())
@@ -46,7 +47,11 @@ fn every_file_at_hand_comes_back_from_either_precision() {
     let mut done = 0;
     for path in paths {
         let document = Document::open(&path, ReadOptions::default()).unwrap();
-        let faces: usize = document.meshes().iter().map(|entry| entry.mesh.face_count()).sum();
+        let faces: usize = document
+            .meshes()
+            .iter()
+            .map(|entry| entry.mesh.face_count())
+            .sum();
         // The largest ones take minutes without optimisation.
         if faces > 150_000 {
             continue;
@@ -63,7 +68,10 @@ fn every_file_at_hand_comes_back_from_either_precision() {
             assert_eq!(meshes.len(), document.meshes().len());
             for (number, (name, mesh)) in meshes.iter().enumerate() {
                 let entry = &document.meshes()[number];
-                assert_eq!((name, mesh.face_count()), (&entry.name, entry.mesh.face_count()));
+                assert_eq!(
+                    (name, mesh.face_count()),
+                    (&entry.name, entry.mesh.face_count())
+                );
                 if positions == PositionPrecision::Lossless {
                     let source = document.positions(number).unwrap().unwrap();
                     assert_eq!(
@@ -91,7 +99,12 @@ fn document(format: Format, meshes: &[(&str, &[Attribute])]) -> Document {
 }
 
 fn square(x: f32) -> Attribute {
-    let positions = [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.1], [x + 1.0, 1.0, 0.3]];
+    let positions = [
+        [x, 0.0, 0.0],
+        [x + 1.0, 0.0, 0.0],
+        [x, 1.0, 0.3],
+        [x + 1.0, 1.0, 0.3],
+    ];
     Attribute::of_vertices(Semantic::Position, &positions)
 }
 
@@ -101,14 +114,18 @@ fn what_cannot_be_compressed_is_named_and_left_out_on_request() {
     let document = document(Format::Ply, &[("one", &[square(0.0), normals])]);
     let error = compress(&document, &CompressOptions::default()).unwrap_err();
     let text = error.to_string();
-    assert!(text.contains("NORMAL") && text.contains("drop_attributes"), "{text}");
+    assert!(
+        text.contains("NORMAL") && text.contains("drop_attributes"),
+        "{text}"
+    );
     compress(&document, &leaving_out()).unwrap();
 }
 
 #[test]
 fn polygons_are_triangles_on_request() {
     let text = b"OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n".to_vec();
-    let document = Document::from_bytes(text, Format::Off, "square.off".as_ref(), Limits::default()).unwrap();
+    let document =
+        Document::from_bytes(text, Format::Off, "square.off".as_ref(), Limits::default()).unwrap();
     let error = compress(&document, &CompressOptions::default()).unwrap_err();
     assert!(error.to_string().contains("polygons"), "{error}");
     let (bytes, _) = compress(&document, &leaving_out()).unwrap();
@@ -128,7 +145,11 @@ fn meshes_that_meet_still_meet_on_their_lattice() {
         let (bytes, report) = compress(&document, &options).unwrap();
         let meshes = decompress(&bytes, Limits::default()).unwrap();
         let has = |mesh: &Mesh| {
-            let mut points: Vec<_> = mesh.positions().iter().map(|it| it.map(f32::to_bits)).collect();
+            let mut points: Vec<_> = mesh
+                .positions()
+                .iter()
+                .map(|it| it.map(f32::to_bits))
+                .collect();
             points.sort_unstable();
             points
         };

@@ -1,6 +1,7 @@
 //! The program as its users call it: a folder, a command, what it prints and leaves behind.
 
 mod basics;
+mod compress;
 mod content;
 mod data;
 mod demo;

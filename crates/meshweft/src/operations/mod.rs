@@ -43,8 +43,8 @@ mod vertex_groups;
 pub use compare::{CompareReport, ComparedFile, compare};
 #[cfg(feature = "files")]
 pub use compress::{
-    CompressError, CompressOptions, CompressReport, CompressedMesh, PositionPrecision, Tier, compress,
-    decompress,
+    CompressError, CompressOptions, CompressReport, CompressedMesh, PositionPrecision, Tier,
+    compress, decompress,
 };
 pub use counts::{Counts, USUAL_CACHES};
 pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};

@@ -42,7 +42,11 @@ pub fn compress(
 
     // One lattice for all, so that meshes that met still meet.
     let meshes = plain_meshes(document)?;
-    let positions = || meshes.iter().flat_map(|(_, mesh)| mesh.positions().iter().copied());
+    let positions = || {
+        meshes
+            .iter()
+            .flat_map(|(_, mesh)| mesh.positions().iter().copied())
+    };
     let lattice = match options.positions {
         PositionPrecision::Lossless => None,
         PositionPrecision::Bits(bits) => Lattice::of_bits(positions(), bits),
@@ -237,11 +241,7 @@ fn with_positions(
 }
 
 /// A mesh of some of the vertices, in their order.
-fn only(
-    positions: &[[f32; 3]],
-    faces: &[[u32; 3]],
-    own: &[bool],
-) -> Result<Mesh, MeshError> {
+fn only(positions: &[[f32; 3]], faces: &[[u32; 3]], own: &[bool]) -> Result<Mesh, MeshError> {
     let mut new = vec![0; own.len()];
     let mut kept = Vec::new();
     for (vertex, _) in own.iter().enumerate().filter(|(_, own)| **own) {
@@ -257,19 +257,27 @@ fn only(
 fn is_same(mesh: &Mesh, decoded: &Mesh, code: &MeshCode, lattice: Option<Lattice>) -> bool {
     let new_to_old = code.vertices().new_to_old();
     let rounded = |coordinate: f32| match lattice {
-        Some(lattice) => lattice.multiple(coordinate).map(|it| lattice.coordinate(it)),
+        Some(lattice) => lattice
+            .multiple(coordinate)
+            .map(|it| lattice.coordinate(it)),
         None => Some(coordinate),
     };
     let bits = |coordinate: f32| Some(coordinate.to_bits());
     let positions = mesh.positions();
     let has_positions = decoded.positions().len() == positions.len()
-        && decoded.positions().iter().zip(new_to_old).all(|(found, &old)| {
-            let expected = positions[old as usize].map(|it| rounded(it).map(f32::to_bits));
-            found.map(bits) == expected
-        });
+        && decoded
+            .positions()
+            .iter()
+            .zip(new_to_old)
+            .all(|(found, &old)| {
+                let expected = positions[old as usize].map(|it| rounded(it).map(f32::to_bits));
+                found.map(bits) == expected
+            });
     let vertices = Permutation::from_algorithm(new_to_old.to_vec()).inverse();
     let old_to_new = vertices.new_to_old();
     let expected = code.faces().apply(mesh.faces());
-    let expected = expected.iter().map(|face| face.map(|old| old_to_new[old as usize]));
+    let expected = expected
+        .iter()
+        .map(|face| face.map(|old| old_to_new[old as usize]));
     has_positions && decoded.faces().iter().copied().eq(expected)
 }

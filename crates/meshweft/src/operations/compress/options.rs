@@ -104,7 +104,11 @@ impl fmt::Display for CompressError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Attributes { file, attributes } => {
-                write!(f, "{}: positions and faces are compressed, and", file.display())?;
+                write!(
+                    f,
+                    "{}: positions and faces are compressed, and",
+                    file.display()
+                )?;
                 for (number, (mesh, attributes)) in attributes.iter().enumerate() {
                     let comma = if number > 0 { ";" } else { "" };
                     let names = attributes.iter().map(name_of);
@@ -138,7 +142,10 @@ impl fmt::Display for CompressError {
                 write!(f, "{bits} position bits: give 1 to 30")
             }
             Self::Precision(PositionPrecision::Step(step)) => {
-                write!(f, "position step {step}: give a power of two, such as 0.0009765625 (2^-10)")
+                write!(
+                    f,
+                    "position step {step}: give a power of two, such as 0.0009765625 (2^-10)"
+                )
             }
             Self::Precision(PositionPrecision::Lossless) => Ok(()),
             Self::Mesh { file, mesh, error } => {

@@ -95,7 +95,10 @@ fn mesh_to_json(mesh: &CompressedMesh) -> Value {
         ("vertices", json!(mesh.vertices)),
         ("faces", json!(mesh.faces)),
         ("bytes", json!(mesh.bytes)),
-        ("connectivity_bits_per_face", json!(mesh.connectivity_bits())),
+        (
+            "connectivity_bits_per_face",
+            json!(mesh.connectivity_bits()),
+        ),
         ("position_bits_per_vertex", json!(mesh.position_bits())),
         ("buffer_size", json!(mesh.buffer_size)),
     ];

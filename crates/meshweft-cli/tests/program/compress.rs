@@ -1,0 +1,137 @@
+//! `compress` and `decompress`: there and back.
+
+use crate::Folder;
+use crate::basics::grid_obj;
+
+#[test]
+fn a_mesh_is_compressed_and_comes_back() {
+    let folder = Folder::new("compress");
+    folder.write("grid.obj", grid_obj());
+    let run = folder.run(&["compress", "grid.obj", "-o", "grid.mwz"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    for expected in [
+        "441 vertices, 800 faces: ",
+        "every bit of the positions",
+        "decoded and compared",
+    ] {
+        assert!(run.out().contains(expected), "{}", run.out());
+    }
+    assert!(folder.read("grid.mwz").len() < 4000, "{}", run.out());
+
+    for name in ["back.obj", "back.ply", "back.glb", "back.off", "back.stl"] {
+        let run = folder.run(&["decompress", "grid.mwz", "-o", name]);
+        assert_eq!(run.code(), 0, "{}", run.err());
+        assert!(
+            run.out().contains("1 mesh, 441 vertices, 800 faces"),
+            "{}",
+            run.out()
+        );
+    }
+    let run = folder.run(&["compare", "grid.obj", "back.obj"]);
+    assert_eq!(run.code(), 0, "{}{}", run.out(), run.err());
+
+    // From vertex 0, what was decompressed has the same bytes.
+    let arguments = ["compress", "back.obj", "--root", "0", "-o", "again.mwz"];
+    assert_eq!(folder.run(&arguments).code(), 0);
+    assert_eq!(folder.read("again.mwz"), folder.read("grid.mwz"));
+}
+
+#[test]
+fn the_report_has_bytes_and_bits() {
+    let folder = Folder::new("compress-json");
+    folder.write("grid.obj", grid_obj());
+    let arguments = [
+        "compress",
+        "grid.obj",
+        "-o",
+        "grid.mwz",
+        "--position-bits",
+        "12",
+        "--json",
+    ];
+    let report = folder.run(&arguments).json();
+    let size = folder.read("grid.mwz").len();
+    assert_eq!(report["bytes"]["after"], size);
+    assert_eq!(report["positions"]["bits"], 12);
+    assert_eq!(report["meshes"][0]["faces"], 800);
+    let back = folder.run(&["decompress", "grid.mwz", "-o", "back.ply", "--json"]);
+    assert_eq!(back.json()["bytes"]["before"], size);
+}
+
+#[test]
+fn no_file_of_others_is_written_over_and_damage_is_said() {
+    let folder = Folder::new("compress-safe");
+    folder.write("grid.obj", grid_obj());
+    folder.write("other.mwz", "somebody's notes");
+    let run = folder.run(&["compress", "grid.obj", "-o", "other.mwz"]);
+    assert_eq!(run.code(), 2);
+    assert!(
+        run.err().contains("not one that --output writes"),
+        "{}",
+        run.err()
+    );
+    assert_eq!(folder.read("other.mwz"), b"somebody's notes");
+    let run = folder.run(&["compress", "grid.obj", "-o", "grid.ply"]);
+    assert!(
+        run.code() == 2 && run.err().contains(".mwz"),
+        "{}",
+        run.err()
+    );
+
+    assert_eq!(
+        folder
+            .run(&["compress", "grid.obj", "-o", "grid.mwz"])
+            .code(),
+        0
+    );
+    let run = folder.run(&["decompress", "grid.mwz", "-o", "grid.obj"]);
+    assert!(
+        run.code() == 1 && run.err().contains("--force"),
+        "{}",
+        run.err()
+    );
+    assert_eq!(folder.read("grid.obj"), grid_obj().into_bytes());
+
+    let mut damaged = folder.read("grid.mwz");
+    let middle = damaged.len() / 2;
+    damaged[middle] ^= 4;
+    folder.write("damaged.mwz", damaged);
+    let run = folder.run(&["decompress", "damaged.mwz", "-o", "new.obj"]);
+    assert_eq!(run.code(), 1);
+    assert!(run.err().contains("damaged.mwz: byte "), "{}", run.err());
+    assert!(!folder.0.join("new.obj").exists());
+    let run = folder.run(&[
+        "decompress",
+        "grid.mwz",
+        "-o",
+        "new.obj",
+        "--max-bytes",
+        "200",
+    ]);
+    assert_eq!(run.code(), 1, "{}", run.out());
+}
+
+#[test]
+fn what_is_left_out_is_asked_for() {
+    let folder = Folder::new("compress-out");
+    folder.write(
+        "square.off",
+        "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
+    );
+    let run = folder.run(&["compress", "square.off", "-o", "square.mwz"]);
+    assert!(
+        run.code() == 1 && run.err().contains("--triangles"),
+        "{}",
+        run.err()
+    );
+    let uv = grid_obj() + "vt 0 0\nf 1/1 2/1 3/1\n";
+    folder.write("uv.obj", uv);
+    let run = folder.run(&["compress", "uv.obj", "-o", "uv.mwz"]);
+    assert!(
+        run.code() == 1 && run.err().contains("--drop-attributes"),
+        "{}",
+        run.err()
+    );
+    let run = folder.run(&["compress", "uv.obj", "-o", "uv.mwz", "--drop-attributes"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+}
