@@ -92,6 +92,38 @@ impl MinimumTimeRendering {
     }
 }
 
+/// How large a buffer must be in which each vertex is sent before its first face, and its slot is free after
+/// the last one: the most vertices that are needed at once.
+///
+/// Any order of faces will do. In that of [`MinimumTimeRendering`] it is at most the required buffer size.
+///
+/// # Complexity
+/// Time O(vertices + faces), space 4 bytes a vertex.
+#[must_use]
+pub fn released_buffer_size<'a>(faces: impl Into<Faces<'a>>) -> usize {
+    let faces = faces.into();
+    let mut last_face = vec![u32::MAX; faces.vertex_count()];
+    for (number, face) in (0..).zip(faces.as_slice()) {
+        face.iter()
+            .for_each(|&vertex| last_face[vertex as usize] = number);
+    }
+    // A vertex is marked when it is sent, by the highest bit, which no number of a face has.
+    const SENT: u32 = 1 << 31;
+    let (mut held, mut most) = (0, 0);
+    for (number, face) in (0..).zip(faces.as_slice()) {
+        for &vertex in face {
+            let last = &mut last_face[vertex as usize];
+            held += usize::from(*last & SENT == 0);
+            *last |= SENT;
+        }
+        most = most.max(held);
+        for vertex in crate::topology::distinct(*face) {
+            held -= usize::from(last_face[vertex as usize] == SENT | number);
+        }
+    }
+    most
+}
+
 /// The place of the first of the least vertices of a face.
 fn least([a, b, c]: [u32; 3]) -> usize {
     match () {

@@ -11,6 +11,9 @@
 //! root. So a first-in first-out buffer of moderate size takes each vertex once ([`MinimumTimeRendering`]).
 //! How large it must be depends on the vertex with which the traversal begins ([`FirstVertex`]).
 //!
+//! That order goes around in rings, which small caches do not hold. [`WindowOrder`] draws some rings together, in
+//! columns across them, while the faces come in; each vertex is still sent once.
+//!
 //! Read [`TrimmedLists`] first: the rest follows from its numbers.
 
 mod fans;
@@ -23,11 +26,15 @@ mod sweep;
 mod tests;
 mod trimmed_list_code;
 mod trimmed_lists;
+mod window_order;
+#[cfg(test)]
+mod window_tests;
 
 pub use fans::FanCode;
 pub(crate) use fans::{BlockReader, BlockSize, Blocks, Port, VertexCoder};
 pub use first_vertex::FirstVertex;
-pub use minimum_time::{MinimumTimeRendering, RenderStep};
+pub use minimum_time::{MinimumTimeRendering, RenderStep, released_buffer_size};
 pub use sweep::buffer_bound;
 pub use trimmed_list_code::{CodeBits, Membership, TrimmedListCode};
 pub use trimmed_lists::TrimmedLists;
+pub use window_order::{Window, WindowOrder, WindowSize};

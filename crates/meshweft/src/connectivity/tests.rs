@@ -53,7 +53,7 @@ fn the_papers_example_gives_its_table_2_and_a_buffer_of_9() {
 }
 
 /// Faces of any kind: flipped, repeated, with a vertex twice, and vertices without faces.
-fn soup(random: &mut SplitMix64) -> (Vec<[u32; 3]>, usize) {
+pub(super) fn soup(random: &mut SplitMix64) -> (Vec<[u32; 3]>, usize) {
     let vertex_count = 1 + random.below(24);
     let mut faces: Vec<[u32; 3]> = Vec::new();
     for _ in 0..random.below(48) {
