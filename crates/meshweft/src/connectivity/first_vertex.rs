@@ -1,13 +1,19 @@
 //! With which vertex the traversal begins.
 
+use super::fans::FanCode;
 use super::minimum_time::MinimumTimeRendering;
 use super::sweep::Sweep;
-use super::trimmed_list_code::TrimmedListCode;
 use super::trimmed_lists::TrimmedLists;
 use crate::error::MeshError;
 use crate::faces::Faces;
 use crate::geometry::dot;
 use crate::mesh::Mesh;
+use crate::random::SplitMix64;
+
+/// Meshes with fewer vertices have random candidates too.
+const SMALL: usize = 10_000;
+/// How many.
+const RANDOM: usize = 48;
 
 /// How the first vertex is chosen: it makes a factor of two in the buffer size, and a few percent of the bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -16,7 +22,7 @@ pub enum FirstVertex {
     /// The one that needs the smallest buffer, of [`candidates`](Self::candidates).
     #[default]
     MinBuffer,
-    /// The one with the fewest bits by the paper's code, of the same.
+    /// The one with the fewest bytes by [`FanCode`], of the same.
     MinBits,
     /// This one.
     Given(u32),
@@ -29,23 +35,16 @@ impl FirstVertex {
     /// [`MeshError::LengthMismatch`] if a given vertex is not there.
     ///
     /// # Complexity
-    /// Up to 27 traversals.
+    /// Up to 27 traversals, 75 below 10,000 vertices; with [`MinBits`](Self::MinBits) each of them is coded,
+    /// which takes several times as long.
     pub fn choose(self, mesh: &Mesh) -> Result<u32, MeshError> {
         let faces = Faces::from(mesh);
         let buffer = |&vertex: &u32| (buffer_size(faces, vertex), vertex);
-        let bits = |&vertex: &u32| {
-            let (code, ..) = TrimmedListCode::new(faces, vertex);
-            code.bits().total()
-        };
+        let bytes = |&vertex: &u32| (FanCode::new(faces, vertex).bytes().len(), vertex);
         let candidates = Self::candidates(mesh);
         match self {
             Self::MinBuffer => Ok(candidates.into_iter().min_by_key(buffer).unwrap_or(0)),
-            Self::MinBits => {
-                let found = candidates
-                    .into_iter()
-                    .min_by(|a, b| bits(a).total_cmp(&bits(b)));
-                Ok(found.unwrap_or(0))
-            }
+            Self::MinBits => Ok(candidates.into_iter().min_by_key(bytes).unwrap_or(0)),
             Self::Given(vertex) if (vertex as usize) < mesh.vertex_count() => Ok(vertex),
             Self::Given(vertex) => Err(MeshError::LengthMismatch {
                 what: "vertices, to begin with the one that is given",
@@ -56,7 +55,8 @@ impl FirstVertex {
     }
 
     /// Vertices with faces that are likely to need a small buffer: the farthest in each of 26 directions
-    /// (along axes, edges and diagonals of a cube), and one at an end of the graph.
+    /// (along axes, edges and diagonals of a cube), and one at an end of the graph. Below 10,000 vertices also
+    /// 48 random ones, the same on every platform.
     ///
     /// # Complexity
     /// Time O(vertices + faces).
@@ -66,6 +66,8 @@ impl FirstVertex {
             return Vec::new();
         };
         let mut found = Vec::new();
+
+        // Extremes of the shape.
         if mesh.positions().len() == mesh.vertex_count() {
             let mut is_used = vec![false; mesh.vertex_count()];
             for &vertex in mesh.faces().as_flattened() {
@@ -73,7 +75,17 @@ impl FirstVertex {
             }
             found.extend(directions().filter_map(|direction| farthest(mesh, &is_used, direction)));
         }
+
+        // An end of the graph.
         found.push(Sweep::new(mesh.into()).end(first[0]));
+
+        // Random ones.
+        if mesh.vertex_count() < SMALL {
+            let mut random = SplitMix64(1);
+            let corners = mesh.faces().as_flattened();
+            found.extend((0..RANDOM).map(|_| corners[random.below(corners.len())]));
+        }
+
         found.sort_unstable();
         found.dedup();
         found

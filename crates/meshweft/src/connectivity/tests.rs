@@ -184,6 +184,15 @@ fn the_first_vertex_is_the_best_of_its_candidates() {
         size(31)
     );
 
+    let bytes = |first: u32| FanCode::new(&mesh, first).bytes().len();
+    let chosen = FirstVertex::MinBits.choose(&mesh).unwrap();
+    assert!(candidates.contains(&chosen));
+    assert!(
+        candidates
+            .iter()
+            .all(|&other| bytes(chosen) <= bytes(other))
+    );
+
     assert_eq!(FirstVertex::Given(31).choose(&mesh), Ok(31));
     let error = FirstVertex::Given(63).choose(&mesh).unwrap_err();
     assert!(error.to_string().contains("64"), "{error}");
