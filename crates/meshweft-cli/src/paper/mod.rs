@@ -14,6 +14,7 @@ use clap::{Args, Subcommand};
 
 use arguments::OfPaper;
 use bogomjakov_gotsman::BogomjakovGotsman;
+use lin_zhang::LinZhang;
 
 #[derive(Debug, Args)]
 pub(crate) struct Paper {
@@ -42,11 +43,13 @@ enum WhichPaper {
     /// Lin, Zhang: Joint Connectivity Compression and Mesh Rendering
     ///
     /// Tables 1 and 2 and figures 3 and 4, on the meshes that are found: bits of each part, how often the
-    /// paper's guesses are right, and how large the buffer must be in which each vertex is sent once.
+    /// paper's guesses are right, how large the buffer must be in which each vertex is sent once, and what small
+    /// caches miss in that order, as it is and reordered inside windows.
     ///
     ///   meshweft paper lin-zhang --data folder-with-meshes
+    ///   meshweft paper lin-zhang --data folder-with-meshes --pictures folder
     #[command(verbatim_doc_comment)]
-    LinZhang(OfPaper),
+    LinZhang(LinZhang),
 }
 
 /// Prints the figures of a paper for the meshes that are found.

@@ -81,4 +81,30 @@ fn the_example_of_lin_and_zhang_is_as_printed() {
         json["buffers"][0]["buffer_size"].as_u64()
             <= json["table_1"][0]["ours"]["buffer_size"].as_u64()
     );
+    let rows = json["windows"]["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 6);
+    assert_eq!(rows[0]["window"], "plain");
+    assert!(rows[0]["released_over_buffer_size"].as_f64() <= Some(1.0));
+}
+
+#[test]
+fn the_vertices_of_lin_and_zhang_are_drawn_over_the_mesh() {
+    let folder = Folder::new("lin-zhang-pictures");
+    folder.write("venus.obj", grid_obj());
+    let flags = ["paper", "lin-zhang", "--data", ".", "--pictures", "here"];
+    let json = folder.run(&[&flags[..], &["--json"]].concat()).json();
+    let name = json["files"][0].as_str().unwrap().replace('\\', "/");
+    assert_eq!(name, "here/figure-3.svg");
+    let picture = folder.read(&name);
+    assert!(picture.starts_with(b"<svg"));
+
+    // Its own file is replaced, that of another program is not.
+    assert_eq!(folder.run(&flags).code(), 0);
+    folder.write(&name, "<svg>a drawing</svg>");
+    let refused = folder.run(&flags);
+    assert_eq!(refused.code(), 2);
+    assert!(refused.err().contains("--force"), "{}", refused.err());
+    let forced = folder.run(&[&flags[..], &["--force"]].concat());
+    assert_eq!(forced.code(), 0);
+    assert!(folder.read(&name) == picture);
 }

@@ -6,6 +6,7 @@ use super::options::Greedy;
 use crate::cache::CacheModel;
 use crate::faces::Faces;
 use crate::mesh::Mesh;
+pub use crate::order::InBatches;
 pub use crate::order::bogomjakov_gotsman::linear_arrangement_cost;
 use crate::order::bogomjakov_gotsman::{LinearArrangement, RecursiveCut};
 use crate::order::{Effort, Grid, KCacheReorder, Mode, Optimizer, Target, baselines, vertex_fetch};

@@ -52,7 +52,7 @@ pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_
 pub use inspect::{InspectReport, inspect};
 #[cfg(feature = "files")]
 pub use json::SCHEMA;
-pub use methods::{Method, grid_orders, linear_arrangement_cost};
+pub use methods::{InBatches, Method, grid_orders, linear_arrangement_cost};
 #[cfg(feature = "files")]
 pub use optimize::{CountChange, OptimizeError, OptimizeReport, OptimizedMesh, optimize};
 pub use options::{Greedy, Options, OptionsError};
