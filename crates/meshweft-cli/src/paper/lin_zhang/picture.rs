@@ -68,6 +68,7 @@ fn drawing(mesh: &Mesh, name: &str) -> String {
     };
     let mut faces: Vec<[u32; 3]> = mesh.faces().iter().filter(seen).copied().collect();
     faces.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
+    let is_first_seen = faces.iter().any(|face| face.contains(&first));
 
     // Steps that no edge makes are few, and not drawn.
     let edge = |a: u32, b: u32| [a.min(b), a.max(b)];
@@ -89,10 +90,12 @@ fn drawing(mesh: &Mesh, name: &str) -> String {
             }
         }
     }
-    let [x, y] = place(first);
-    line(format_args!(
-        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"#0072b2\"/>"
-    ));
+    if is_first_seen {
+        let [x, y] = place(first);
+        line(format_args!(
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"#0072b2\"/>"
+        ));
+    }
 
     let [width, height] = view.size;
     format!(
