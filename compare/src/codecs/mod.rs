@@ -5,6 +5,7 @@ use std::path::Path;
 
 use meshweft::Mesh;
 
+pub mod compressed;
 mod counts;
 pub mod draco;
 pub mod fans;
@@ -102,6 +103,7 @@ pub fn all() -> Vec<Box<dyn Codec>> {
         meshopt(FaceOrdering::Cache, best),
         meshopt(FaceOrdering::Strip, best),
         Box::new(fans::Fans),
+        Box::new(compressed::Compressed(meshweft::compression::Tier::Fast)),
     ]
 }
 

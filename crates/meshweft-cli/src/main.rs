@@ -67,7 +67,8 @@ enum Verb {
     ///
     /// Every mesh comes back with each face and vertex, whatever its edges: nothing is split or joined. The result is
     /// decoded and compared before it is written. Vertices and faces get another order: that in which each vertex
-    /// is sent once to a first-in first-out buffer. Other attributes are not compressed yet.
+    /// is sent once to a first-in first-out buffer. Names, positions and faces are stored: no other attributes
+    /// yet, no materials, no nodes.
     ///
     ///   meshweft compress scan.ply -o scan.mwz
     ///   meshweft compress scene.glb -o scene.mwz --position-bits 14 --drop-attributes

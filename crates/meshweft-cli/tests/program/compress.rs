@@ -124,7 +124,7 @@ fn what_is_left_out_is_asked_for() {
         "{}",
         run.err()
     );
-    let uv = grid_obj() + "vt 0 0\nf 1/1 2/1 3/1\n";
+    let uv = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
     folder.write("uv.obj", uv);
     let run = folder.run(&["compress", "uv.obj", "-o", "uv.mwz"]);
     assert!(

@@ -77,9 +77,9 @@ impl AdaptiveTable {
     /// Where a symbol begins, and its frequency, which is never 0.
     #[inline]
     pub(super) fn interval(&self, symbol: usize) -> Interval {
-        let begin = self.begins[symbol].unsigned_abs() >> FRACTION;
+        let begin = self.begins[symbol].cast_unsigned() >> FRACTION;
         let next = self.begins.get(symbol + 1);
-        let end = next.map_or(1 << PRECISION, |next| next.unsigned_abs() >> FRACTION);
+        let end = next.map_or(1 << PRECISION, |next| next.cast_unsigned() >> FRACTION);
         Interval {
             begin,
             frequency: end - begin,
@@ -90,8 +90,12 @@ impl AdaptiveTable {
     #[inline]
     pub(super) fn symbol(&self, number: u32) -> usize {
         let last = ((number << FRACTION) | ((1 << FRACTION) - 1)).cast_signed();
-        let later = self.begins.iter().map(|&begin| i32::from(begin > last));
-        SYMBOLS - 1 - later.sum::<i32>().unsigned_abs() as usize
+        // As they rise, those that begin later are the high bits; one more stands for the end.
+        let mut later = 1 << SYMBOLS;
+        for (place, &begin) in self.begins.iter().enumerate() {
+            later |= u32::from(begin > last) << place;
+        }
+        later.trailing_zeros() as usize - 1
     }
 
     /// A symbol came.

@@ -168,11 +168,14 @@ impl RansDecoder {
     fn take(&mut self, Interval { begin, frequency }: Interval) {
         let [state, other] = self.states;
         let number = state & ((1 << PRECISION) - 1);
-        let mut state = frequency * (state >> PRECISION) + number - begin;
-        if state < LEAST {
-            state = state << 16 | self.word();
-        }
-        self.states = [other, state];
+        let state = frequency * (state >> PRECISION) + number - begin;
+
+        // Without a branch, which could not be foreseen.
+        let word = self.words.get(self.asked).copied().unwrap_or(0);
+        let is_small = state < LEAST;
+        let refilled = state << 16 | u32::from(word);
+        self.asked += usize::from(is_small);
+        self.states = [other, if is_small { refilled } else { state }];
     }
 
     /// What is wrong at the place where it is now.

@@ -40,6 +40,7 @@ const ROOMS: [(&str, &[&[&str]]); 22] = [
             VALUES,
             ALGORITHMS,
             &[
+                "bits",
                 "order",
                 "progressive",
                 "compression",
