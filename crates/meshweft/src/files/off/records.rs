@@ -126,7 +126,8 @@ impl<'a> Reader<'a> {
     ///
     /// A vertex on each line and a face from each on takes as many lines as there are records. Where the
     /// vertices alone take as many lines as there are vertices, one of the lines is too short, as each
-    /// would have just the numbers of one vertex otherwise, and the first way had read them.
+    /// would have just the numbers of one vertex otherwise, and the first way had read them. Of colours, lines may
+    /// have one number less than counts take: those that are left over may be on as many more lines.
     fn is_lasting(&self, end: usize, shares_line: bool, is_of_lines: bool) -> bool {
         let OffHeader {
             vertex_count,
@@ -144,9 +145,13 @@ impl<'a> Reader<'a> {
         );
         let of_faces = count(end, self.text.len());
 
+        let has_too_many = match self.header.has_colours {
+            true => of_vertices > vertex_count.saturating_mul(2),
+            false => of_vertices >= vertex_count,
+        };
         let is_never_of_lines = !self.header.ends_line
             || all < vertex_count.saturating_add(face_count)
-            || !shares_line && of_vertices >= vertex_count;
+            || !shares_line && has_too_many;
         let keeps_its_faces = is_of_lines || shares_line || of_faces < face_count;
         self.header.has_edges && is_never_of_lines && keeps_its_faces
     }
@@ -465,6 +470,10 @@ mod tests {
         let text = "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3\n0\n1 2\n3 0 1 2 3 2 1 0\n";
         let (_, faces, stays) = found(text).unwrap();
         assert_eq!((faces.len(), stays), (3, true));
+        // Vertices whose colours would be shorter after a move, so that each is a line.
+        let text =
+            "COFF\n2 2 0\n0 0 0 1 0 \n5\n1 0 0 1 0 0 1\n5\n0 0 0 1 0 0 1\n1 0 0 1 0  1 3 0\n";
+        assert!(found(text).unwrap().2);
         // Two vertices on one line, and the number of edges is missing.
         let text = "OFF\n3 1\n0 0 0 1 0 0\n0 1 0\n3 0 1 2\n";
         assert!(found(text).unwrap().2);
