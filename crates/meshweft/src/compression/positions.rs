@@ -59,7 +59,7 @@ impl Coordinate for Exact {
     #[inline]
     fn complete(a: u32, b: u32, c: u32) -> u32 {
         let sum = Self::coordinate(a) + Self::coordinate(b) - Self::coordinate(c);
-        // Which bits of all that are no number comes out is not the same everywhere.
+        // The bits of a NaN are not the same everywhere.
         if sum.is_nan() { a } else { Self::of(sum) }
     }
 }

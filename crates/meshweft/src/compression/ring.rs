@@ -48,11 +48,7 @@ impl<T: Copy + Default> Ring<T> {
 
     #[cold]
     fn grow(&mut self) {
-        let size = self.values.len();
-        let mut wider = self.values.clone();
-        wider.extend_from_slice(&self.values);
         // Of either half, only the places that their numbers belong to are read.
-        debug_assert!(wider.len() == 2 * size);
-        self.values = wider;
+        self.values.extend_from_within(..);
     }
 }

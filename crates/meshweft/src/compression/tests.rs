@@ -36,7 +36,7 @@ fn ways(mesh: &Mesh) -> [PositionCoding; 3] {
     ]
 }
 
-/// The bits of a mesh: as numbers, what is no number would differ from itself.
+/// The bits of a mesh: as a number, a NaN would differ from itself.
 fn bits(mesh: &Mesh) -> (Vec<[u32; 3]>, &[[u32; 3]]) {
     let positions = mesh.positions().iter();
     let positions = positions.map(|position| position.map(f32::to_bits));

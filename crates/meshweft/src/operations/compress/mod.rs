@@ -15,7 +15,6 @@ use crate::geometry::Lattice;
 use crate::index::index32;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
-use crate::permutation::Permutation;
 
 pub use crate::compression::Tier;
 pub use options::{CompressError, CompressOptions, PositionPrecision};
@@ -255,29 +254,18 @@ fn only(positions: &[[f32; 3]], faces: &[[u32; 3]], own: &[bool]) -> Result<Mesh
 
 /// Whether a decoded mesh is the mesh in the order of its code, its positions rounded to the lattice, bit for bit.
 fn is_same(mesh: &Mesh, decoded: &Mesh, code: &MeshCode, lattice: Option<Lattice>) -> bool {
-    let new_to_old = code.vertices().new_to_old();
+    let expected = mesh
+        .with_face_order(code.faces())
+        .with_vertex_order(code.vertices());
     let rounded = |coordinate: f32| match lattice {
         Some(lattice) => lattice
             .multiple(coordinate)
             .map(|it| lattice.coordinate(it)),
         None => Some(coordinate),
     };
-    let bits = |coordinate: f32| Some(coordinate.to_bits());
-    let positions = mesh.positions();
-    let has_positions = decoded.positions().len() == positions.len()
-        && decoded
-            .positions()
-            .iter()
-            .zip(new_to_old)
-            .all(|(found, &old)| {
-                let expected = positions[old as usize].map(|it| rounded(it).map(f32::to_bits));
-                found.map(bits) == expected
-            });
-    let vertices = Permutation::from_algorithm(new_to_old.to_vec()).inverse();
-    let old_to_new = vertices.new_to_old();
-    let expected = code.faces().apply(mesh.faces());
-    let expected = expected
-        .iter()
-        .map(|face| face.map(|old| old_to_new[old as usize]));
-    has_positions && decoded.faces().iter().copied().eq(expected)
+    let expected_bits = expected.positions().as_flattened().iter();
+    let expected_bits = expected_bits.map(|&it| rounded(it).map(f32::to_bits));
+    let bits = decoded.positions().as_flattened().iter();
+    let bits = bits.map(|it| Some(it.to_bits()));
+    decoded.faces() == expected.faces() && bits.eq(expected_bits)
 }
