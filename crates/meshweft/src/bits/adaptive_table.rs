@@ -2,64 +2,35 @@
 
 /// How many symbols a table has.
 pub(crate) const SYMBOLS: usize = 16;
+
 /// Frequencies add up to two to the power of this.
 pub(super) const PRECISION: u32 = 15;
-/// Bits of the fraction of a frequency: the largest number of a table is just below 31 bits, so that its
-/// difference to any other has 16 bits after this shift. Then a product with a step is one instruction for four symbols.
-const FRACTION: u32 = 16;
-/// The frequency to which that of a symbol falls that does not come any more. Rounding may take 1 from it, as
-/// [`AdaptiveTable::see`] says, and the mean of two tables less than another 1.
-const LEAST: usize = 3;
 
-/// Cumulative frequencies of 16 symbols, which move towards the symbols that come: a third of the way at first,
-/// a 300th in the end.
+/// No frequency is below.
+const LEAST: i16 = 3;
+
+/// What a symbol adds to its count. One that never came counts 1 at first.
+const WEIGHT: u16 = 28;
+
+/// With more symbols than this, older ones count half.
+const MOST_SEEN: u16 = 500;
+
+/// With a shorter wait, a table has seen fewer than about 40 symbols.
+const YOUNG_WAIT: u16 = 9;
+
+/// The most symbols from one change of the frequencies to the next.
+const LONGEST_WAIT: u16 = 64;
+
+/// Frequencies of 16 symbols by how often they came. They change after every symbol at first, then after more and more
+/// of them, so that a symbol takes few instructions: the next one does not wait for a change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct AdaptiveTable {
-    /// Where each symbol begins, with a fraction; the first is 0. At least one whole is between two.
-    begins: [i32; SYMBOLS],
-    /// How many symbols it has seen, as far as that changes a step.
-    seen: u16,
-}
-
-/// How far a table moves, in parts of 65,536, by the number of symbols that it has seen.
-static STEPS: [i16; 300] = {
-    let mut steps = [0; 300];
-    let mut seen = 0;
-    while seen < steps.len() {
-        #[expect(clippy::cast_possible_truncation, reason = "below a half of 65,536")]
-        let step = (655_360 / (10 * seen + 22)) as i16;
-        steps[seen] = step;
-        seen += 1;
-    }
-    steps
-};
-
-/// Where symbols begin once only one comes.
-static GOALS: [[i32; SYMBOLS]; SYMBOLS] = {
-    let mut goals = [[0; SYMBOLS]; SYMBOLS];
-    let mut symbol = 0;
-    while symbol < SYMBOLS {
-        let mut place = 0;
-        while place < SYMBOLS {
-            goals[symbol][place] = goal(place, symbol) << FRACTION;
-            place += 1;
-        }
-        symbol += 1;
-    }
-    goals
-};
-
-/// Where symbols begin once only one comes: from the place of that symbol on, and before it.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_possible_wrap,
-    reason = "below 64"
-)]
-const fn goal(place: usize, symbol: usize) -> i32 {
-    match place > symbol {
-        true => (1 << PRECISION) - (LEAST * (SYMBOLS - place)) as i32,
-        false => (LEAST * place) as i32,
-    }
+    /// Where each symbol begins; the first is 0.
+    begins: [i16; SYMBOLS],
+    counts: [u16; SYMBOLS],
+    /// How many symbols come until the frequencies change, and how many came from the change before to the last one.
+    left: u16,
+    wait: u16,
 }
 
 impl AdaptiveTable {
@@ -68,18 +39,24 @@ impl AdaptiveTable {
         let mut begins = [0; SYMBOLS];
         let mut place = 1;
         while place < SYMBOLS {
-            begins[place] = begins[place - 1] + (1 << (PRECISION + FRACTION - 4));
+            begins[place] = begins[place - 1] + (1 << (PRECISION - 4));
             place += 1;
         }
-        Self { begins, seen: 0 }
+        Self {
+            begins,
+            counts: [1; SYMBOLS],
+            left: 1,
+            wait: 1,
+        }
     };
 
     /// Where a symbol begins, and its frequency, which is never 0.
-    #[inline]
+    #[inline(always)]
     pub(super) fn interval(&self, symbol: usize) -> Interval {
-        let begin = self.begins[symbol].cast_unsigned() >> FRACTION;
+        let number = |begin: i16| u32::from(begin.cast_unsigned());
+        let begin = number(self.begins[symbol]);
         let next = self.begins.get(symbol + 1);
-        let end = next.map_or(1 << PRECISION, |next| next.cast_unsigned() >> FRACTION);
+        let end = next.map_or(1 << PRECISION, |&next| number(next));
         Interval {
             begin,
             frequency: end - begin,
@@ -87,42 +64,69 @@ impl AdaptiveTable {
     }
 
     /// The symbol to which a number below the sum of frequencies belongs.
-    #[inline]
+    #[inline(always)]
     pub(super) fn symbol(&self, number: u32) -> usize {
-        let last = ((number << FRACTION) | ((1 << FRACTION) - 1)).cast_signed();
+        #[expect(clippy::cast_possible_truncation, reason = "15 bits")]
+        let number = number as i16;
         // As they rise, those that begin later are the high bits; one more stands for the end.
-        let mut later = 1 << SYMBOLS;
-        for (place, &begin) in self.begins.iter().enumerate() {
-            later |= u32::from(begin > last) << place;
-        }
-        later.trailing_zeros() as usize - 1
+        let bits: [u16; SYMBOLS] = std::array::from_fn(|place| {
+            let is_later = -i16::from(self.begins[place] > number);
+            is_later.cast_unsigned() & (1 << place)
+        });
+        let later = bits.iter().fold(0, |all, bit| all | bit);
+        (u32::from(later) | 1 << SYMBOLS).trailing_zeros() as usize - 1
     }
 
     /// A symbol came.
-    ///
-    /// Let two neighbours be closer than their goals by some frequency. A step takes them apart by that times itself, and
-    /// rounding brings them together by less than 1 times itself. So they do not get closer than 1 less than the goals.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn see(&mut self, symbol: usize) {
-        let step = i32::from(STEPS[usize::from(self.seen)]);
-        self.seen += u16::from(usize::from(self.seen) + 1 < STEPS.len());
-        for (begin, goal) in self.begins.iter_mut().zip(&GOALS[symbol]) {
-            *begin += ((goal - *begin) >> FRACTION) * step;
+        self.counts[symbol] += WEIGHT;
+        self.left -= 1;
+        if self.left == 0 {
+            self.change();
         }
     }
 
-    /// Whether it has seen fewer symbols than this.
+    #[inline(never)]
+    fn change(&mut self) {
+        self.wait = (self.wait + self.wait / 8 + 1).min(LONGEST_WAIT);
+        self.left = self.wait;
+        let mut total: u32 = self.counts.iter().map(|&count| u32::from(count)).sum();
+        if total > u32::from(MOST_SEEN) * u32::from(WEIGHT) {
+            for count in &mut self.counts {
+                *count /= 2;
+            }
+            total = self.counts.iter().map(|&count| u32::from(count)).sum();
+        }
+
+        // Beyond the least frequencies, as many parts of 65,536 for each that was counted.
+        let above = (1 << PRECISION) - 16 * u32::from(LEAST.unsigned_abs());
+        let of_one = (above << 16) / total;
+        let (mut before, mut least) = (0, 0);
+        for (begin, &count) in self.begins.iter_mut().zip(&self.counts) {
+            let place = ((before * of_one) >> 16) as i16;
+            *begin = place + least;
+            before += u32::from(count);
+            least += LEAST;
+        }
+    }
+
+    /// Whether it has seen few symbols.
     #[inline]
-    pub(crate) fn has_seen_less_than(&self, symbols: u16) -> bool {
-        self.seen < symbols
+    pub(crate) fn is_young(&self) -> bool {
+        self.wait < YOUNG_WAIT
     }
 
     /// A table that begins with these frequencies, and soon has its own.
-    #[inline]
     pub(crate) fn child(&self) -> Self {
+        // Together they count about as much as two symbols.
+        #[expect(clippy::cast_possible_truncation, reason = "5 bits")]
+        let count = |symbol| (self.interval(symbol).frequency >> 10) as u16;
         Self {
             begins: self.begins,
-            seen: self.seen.min(8),
+            counts: std::array::from_fn(|symbol| 1 + count(symbol)),
+            left: 1,
+            wait: 1,
         }
     }
 

@@ -11,4 +11,4 @@ pub(crate) mod varint;
 pub(crate) use adaptive_table::{AdaptiveTable, SYMBOLS};
 pub(crate) use checksum::crc32;
 pub use error::{DecodeError, DecodeErrorKind};
-pub(crate) use rans::{MOST_BITS, RansDecoder, RansEncoder};
+pub(crate) use rans::{Lane, MOST_BITS, Port, RansDecoder, RansEncoder};

@@ -1,67 +1,76 @@
-//! Asymmetric numeral systems by ranges (J. Duda, *Asymmetric numeral systems*, arXiv:1311.2540, 2013): two
-//! states in turn, words of 16 bits.
+//! Asymmetric numeral systems by ranges (J. Duda, *Asymmetric numeral systems*, arXiv:1311.2540, 2013), with a state
+//! for each of some lanes, and words of 16 bits.
 //!
-//! What is read forwards is written backwards, so all symbols are collected first. Both states begin with
-//! the same number when they are written, and must be back at it when everything is read.
+//! What is read forwards is written backwards, so all symbols are collected first. Symbols of different lanes do not wait
+//! for each other when they are read. All states begin with the same number when they are written, and must be back at it
+//! when everything is read.
 
 use super::adaptive_table::{AdaptiveTable, Interval, PRECISION};
 use super::error::{DecodeError, DecodeErrorKind};
 
 /// States are at least this large.
 const LEAST: u32 = 1 << 16;
+
 /// Bits that are taken as they are at once.
 pub(crate) const MOST_BITS: u32 = PRECISION;
-/// States in turn.
-const STATES: usize = 2;
 
-/// Collects symbols, and writes them.
-#[derive(Debug, Default)]
-pub(crate) struct RansEncoder {
-    /// Where each begins, and its frequency; the highest bit of the first says that it is of the second kind.
-    intervals: Vec<(u16, u16)>,
-    /// What is counted apart.
-    kind: u16,
-    /// About how many bits symbols of either kind took, in parts of 65,536.
-    parts: [u64; 2],
+/// The most lanes.
+const LANES: usize = 4;
+
+/// Which state a symbol is coded with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Lane(u8);
+
+impl Lane {
+    pub(crate) const ALL: [Self; LANES] = [Self(0), Self(1), Self(2), Self(3)];
+
+    #[inline(always)]
+    fn index(self) -> usize {
+        usize::from(self.0) & (LANES - 1)
+    }
 }
 
-/// The highest bit.
-const SECOND_KIND: u16 = 1 << 15;
+/// Reads or writes a symbol by a table.
+pub(crate) trait Port {
+    /// The symbol that was read, or the one that was given.
+    fn code(&mut self, lane: Lane, table: &AdaptiveTable, symbol: usize) -> usize;
+
+    /// Up to 15 bits that were read, or those that were given.
+    fn bits(&mut self, lane: Lane, count: u32, bits: u32) -> u32;
+}
+
+/// Collects symbols, and writes them.
+#[derive(Debug)]
+pub(crate) struct RansEncoder {
+    /// Where each begins, its frequency in the bits from 15 on, its lane in the two highest.
+    intervals: Vec<u32>,
+    lanes: usize,
+    /// About how many bits the symbols of each lane took, in parts of 65,536.
+    parts: [u64; LANES],
+}
+
+/// Where the lane of an interval is.
+const LANE_SHIFT: u32 = 2 * PRECISION;
 
 impl RansEncoder {
-    /// Takes a symbol, with its frequency in a table.
-    #[inline]
-    pub(crate) fn push(&mut self, table: &AdaptiveTable, symbol: usize) {
-        let Interval { begin, frequency } = table.interval(symbol);
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "below two to the power of 15"
-        )]
-        self.intervals
-            .push((begin as u16 | self.kind, frequency as u16));
+    /// An encoder of the first lanes.
+    pub(crate) fn new(lanes: usize) -> Self {
+        debug_assert!((1..=LANES).contains(&lanes));
+        Self {
+            intervals: Vec::new(),
+            lanes,
+            parts: [0; LANES],
+        }
     }
 
-    /// Takes up to 15 bits as they are.
     #[inline]
-    pub(crate) fn push_bits(&mut self, count: u32, bits: u32) {
-        debug_assert!((1..=MOST_BITS).contains(&count) && bits >> count == 0);
-        let frequency = 1 << (PRECISION - count);
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "below two to the power of 15"
-        )]
-        self.intervals
-            .push(((bits * frequency) as u16 | self.kind, frequency as u16));
+    fn push(&mut self, lane: Lane, Interval { begin, frequency }: Interval) {
+        let lane = u32::from(lane.0) << LANE_SHIFT;
+        self.intervals.push(lane | frequency << PRECISION | begin);
     }
 
-    /// Symbols from here on are of the first or second kind.
-    #[inline]
-    pub(crate) fn count_as(&mut self, is_second: bool) {
-        self.kind = if is_second { SECOND_KIND } else { 0 };
-    }
-
-    /// About how many bits symbols of either kind took, of all that is finished.
-    pub(crate) fn bits_of_kinds(&self) -> [f64; 2] {
+    /// About how many bits the symbols of each lane took, of all that is finished.
+    pub(crate) fn bits_of_lanes(&self) -> [f64; LANES] {
         self.parts.map(|bits| bits as f64 / 65_536.0)
     }
 
@@ -69,20 +78,22 @@ impl RansEncoder {
     pub(crate) fn finish(&mut self) -> Vec<u8> {
         #[expect(clippy::cast_possible_truncation, reason = "the low half of a state")]
         let low = |state: u32| state as u16;
-        let mut states = [LEAST; STATES];
-        let mut words: Vec<u16> = Vec::with_capacity(self.intervals.len() / 4 + 2 * STATES);
-        for (turn, &(begin, frequency)) in self.intervals.iter().enumerate().rev() {
-            self.parts[usize::from(begin / SECOND_KIND)] += bits_of(frequency);
-            let begin = u32::from(begin & !SECOND_KIND);
-            let frequency = u32::from(frequency);
-            let state = &mut states[turn % STATES];
+        let mut states = [LEAST; LANES];
+        let mut words: Vec<u16> = Vec::with_capacity(self.intervals.len() / 4 + 2 * LANES);
+        for &interval in self.intervals.iter().rev() {
+            let lane = (interval >> LANE_SHIFT) as usize;
+            let frequency = interval >> PRECISION & ((1 << PRECISION) - 1);
+            let begin = interval & ((1 << PRECISION) - 1);
+            self.parts[lane] += bits_of(frequency);
+
+            let state = &mut states[lane];
             if u64::from(*state) >= u64::from(frequency) << (32 - PRECISION) {
                 words.push(low(*state));
                 *state >>= 16;
             }
             *state = ((*state / frequency) << PRECISION) + *state % frequency + begin;
         }
-        for state in states.into_iter().rev() {
+        for &state in states[..self.lanes].iter().rev() {
             words.extend([low(state), low(state >> 16)]);
         }
         self.intervals.clear();
@@ -91,8 +102,25 @@ impl RansEncoder {
     }
 }
 
+impl Port for RansEncoder {
+    #[inline]
+    fn code(&mut self, lane: Lane, table: &AdaptiveTable, symbol: usize) -> usize {
+        self.push(lane, table.interval(symbol));
+        symbol
+    }
+
+    #[inline]
+    fn bits(&mut self, lane: Lane, count: u32, bits: u32) -> u32 {
+        debug_assert!((1..=MOST_BITS).contains(&count) && bits >> count == 0);
+        let frequency = 1 << (PRECISION - count);
+        let begin = bits * frequency;
+        self.push(lane, Interval { begin, frequency });
+        bits
+    }
+}
+
 /// How many bits a symbol takes, in parts of 65,536, within a hundredth of a bit.
-fn bits_of(frequency: u16) -> u64 {
+fn bits_of(frequency: u32) -> u64 {
     let whole = frequency.ilog2();
     // The logarithm of 1 to 2 by a parabola.
     let part = ((u64::from(frequency) << 16) >> whole) - (1 << 16);
@@ -101,10 +129,10 @@ fn bits_of(frequency: u16) -> u64 {
 }
 
 /// Reads symbols.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct RansDecoder {
-    /// The state whose turn it is first.
-    states: [u32; STATES],
+    states: [u32; LANES],
+    lanes: usize,
     words: Vec<u16>,
     /// How many words were asked for.
     asked: usize,
@@ -113,11 +141,15 @@ pub(crate) struct RansDecoder {
 }
 
 impl RansDecoder {
-    #[cfg(test)]
-    fn new(bytes: &[u8]) -> Self {
-        let mut decoder = Self::default();
-        decoder.begin(bytes);
-        decoder
+    /// A decoder of the first lanes.
+    pub(crate) fn new(lanes: usize) -> Self {
+        Self {
+            states: [LEAST; LANES],
+            lanes,
+            words: Vec::new(),
+            asked: 0,
+            is_odd: false,
+        }
     }
 
     /// Goes on with other bytes, whatever is left of those before.
@@ -128,54 +160,30 @@ impl RansDecoder {
         self.words
             .extend(words.map(|word| u16::from_le_bytes([word[0], word[1]])));
         self.asked = 0;
-        for state in 0..STATES {
+        for lane in 0..self.lanes {
             let high = self.word();
-            self.states[state] = high << 16 | self.word();
+            self.states[lane] = high << 16 | self.word();
         }
     }
 
-    #[inline]
     fn word(&mut self) -> u32 {
         let word = self.words.get(self.asked).copied().unwrap_or(0);
         self.asked += 1;
         u32::from(word)
     }
 
-    /// The next symbol, by its frequency in a table.
-    #[inline]
-    pub(crate) fn pop(&mut self, table: &AdaptiveTable) -> usize {
-        let number = self.states[0] & ((1 << PRECISION) - 1);
-        let symbol = table.symbol(number);
-        self.take(table.interval(symbol));
-        symbol
-    }
-
-    /// Up to 15 bits as they were given.
-    #[inline]
-    pub(crate) fn pop_bits(&mut self, count: u32) -> u32 {
-        debug_assert!((1..=MOST_BITS).contains(&count));
-        let frequency = 1 << (PRECISION - count);
-        let bits = (self.states[0] & ((1 << PRECISION) - 1)) / frequency;
-        self.take(Interval {
-            begin: bits * frequency,
-            frequency,
-        });
-        bits
-    }
-
-    /// What was next lies in an interval.
-    #[inline]
-    fn take(&mut self, Interval { begin, frequency }: Interval) {
-        let [state, other] = self.states;
+    /// What was next in a lane lies in an interval.
+    #[inline(always)]
+    fn take(&mut self, lane: Lane, Interval { begin, frequency }: Interval) {
+        let state = self.states[lane.index()];
         let number = state & ((1 << PRECISION) - 1);
         let state = frequency * (state >> PRECISION) + number - begin;
-
         // Without a branch, which could not be foreseen.
         let word = self.words.get(self.asked).copied().unwrap_or(0);
         let is_small = state < LEAST;
         let refilled = state << 16 | u32::from(word);
         self.asked += usize::from(is_small);
-        self.states = [other, if is_small { refilled } else { state }];
+        self.states[lane.index()] = if is_small { refilled } else { state };
     }
 
     /// What is wrong at the place where it is now.
@@ -206,10 +214,34 @@ impl RansDecoder {
     pub(crate) fn finish(&self) -> Result<(), DecodeError> {
         self.check()?;
         let is_at_end = self.asked == self.words.len() && !self.is_odd;
-        match is_at_end && self.states == [LEAST; STATES] {
+        match is_at_end
+            && self.states[..self.lanes]
+                .iter()
+                .all(|&state| state == LEAST)
+        {
             true => Ok(()),
             false => Err(self.error(DecodeErrorKind::Damaged)),
         }
+    }
+}
+
+impl Port for RansDecoder {
+    #[inline(always)]
+    fn code(&mut self, lane: Lane, table: &AdaptiveTable, _: usize) -> usize {
+        let number = self.states[lane.index()] & ((1 << PRECISION) - 1);
+        let symbol = table.symbol(number);
+        self.take(lane, table.interval(symbol));
+        symbol
+    }
+
+    #[inline(always)]
+    fn bits(&mut self, lane: Lane, count: u32, _: u32) -> u32 {
+        debug_assert!((1..=MOST_BITS).contains(&count));
+        let frequency = 1 << (PRECISION - count);
+        let bits = (self.states[lane.index()] & ((1 << PRECISION) - 1)) >> (PRECISION - count);
+        let begin = bits * frequency;
+        self.take(lane, Interval { begin, frequency });
+        bits
     }
 }
 
@@ -220,18 +252,19 @@ mod tests {
     use crate::random::SplitMix64;
 
     fn coded(symbols: &[usize]) -> Vec<u8> {
-        let (mut encoder, mut table) = (RansEncoder::default(), AdaptiveTable::EVEN);
-        for &symbol in symbols {
-            encoder.push(&table, symbol);
+        let (mut encoder, mut table) = (RansEncoder::new(LANES), AdaptiveTable::EVEN);
+        for (turn, &symbol) in symbols.iter().enumerate() {
+            encoder.code(Lane::ALL[turn % LANES], &table, symbol);
             table.see(symbol);
         }
         encoder.finish()
     }
 
     fn decoded(bytes: &[u8], count: usize) -> Result<Vec<usize>, DecodeError> {
-        let (mut decoder, mut table) = (RansDecoder::new(bytes), AdaptiveTable::EVEN);
-        let symbols = (0..count).map(|_| {
-            let symbol = decoder.pop(&table);
+        let (mut decoder, mut table) = (RansDecoder::new(LANES), AdaptiveTable::EVEN);
+        decoder.begin(bytes);
+        let symbols = (0..count).map(|turn| {
+            let symbol = decoder.code(Lane::ALL[turn % LANES], &table, 0);
             table.see(symbol);
             symbol
         });

@@ -1,8 +1,8 @@
 //! Positions, each by how far it is from where its neighbours let it be expected.
 
 use super::ring::Ring;
-use crate::bits::{AdaptiveTable, MOST_BITS, SYMBOLS};
-use crate::connectivity::{Port, VertexCoder};
+use crate::bits::{AdaptiveTable, Lane, MOST_BITS, Port, SYMBOLS};
+use crate::connectivity::VertexCoder;
 use crate::index::index32;
 
 /// The last symbol: this number or more.
@@ -12,6 +12,9 @@ const MOST: u32 = {
 };
 /// The most that is told apart of how far neighbours were from where they were expected, in bits.
 const LEVELS: usize = 20;
+
+/// Where coordinates are coded, by axis.
+const LANES: [Lane; 3] = [Lane::ALL[1], Lane::ALL[2], Lane::ALL[3]];
 
 /// A coordinate as a number, and how it follows from others.
 pub(super) trait Coordinate {
@@ -101,54 +104,83 @@ impl<'a, C: Coordinate> Positions<'a, C> {
         }
     }
 
-    /// How far a coordinate is from where it was expected, and how many bits that has.
-    #[inline]
-    fn difference(
-        &mut self,
-        port: &mut impl Port,
-        axis: usize,
-        context: usize,
-        difference: u32,
-    ) -> (u32, u32) {
-        // The sign comes last: 0, 1, -1, 2, -2 …
-        let signed = difference.cast_signed();
-        let above = ((signed << 1) ^ (signed >> 31)).cast_unsigned();
-        let mut length = u32::BITS - above.leading_zeros();
+    /// How many bits the number of a difference has.
+    #[inline(always)]
+    fn length(&mut self, port: &mut impl Port, axis: usize, context: usize, length: u32) -> u32 {
         let table = &mut self.levels[axis][context];
-        let symbol = port.code(table, length.min(MOST) as usize);
+        let symbol = port.code(LANES[axis], table, length.min(MOST) as usize);
         table.see(symbol);
-        length = match index32(symbol) {
+        match index32(symbol) {
             MOST => MOST + more(&mut self.more, port, length.wrapping_sub(MOST)),
             length => length,
-        };
-
-        // The bits after the first one, which is set.
-        let mut value = u32::from(length > 0);
-        let mut left = length.saturating_sub(1);
-        while left > 0 {
-            let count = left.min(MOST_BITS);
-            left -= count;
-            let bits = (above >> left) & ((1 << count) - 1);
-            value = value << count | port.bits(count, bits);
         }
-        let half = (value >> 1).cast_signed();
-        ((half ^ -(value & 1).cast_signed()).cast_unsigned(), length)
     }
+}
+
+/// A difference as a number: 0, 1, -1, 2, -2 … The sign comes last.
+#[inline]
+fn folded(difference: u32) -> u32 {
+    let signed = difference.cast_signed();
+    ((signed << 1) ^ (signed >> 31)).cast_unsigned()
+}
+
+#[inline]
+fn unfolded(number: u32) -> u32 {
+    (number >> 1) ^ (number & 1).wrapping_neg()
+}
+
+/// The bits after the first one of three numbers of some lengths.
+#[inline(always)]
+fn rest_of(port: &mut impl Port, lengths: [u32; 3], numbers: [u32; 3]) -> [u32; 3] {
+    let counts = lengths.map(|length| length.saturating_sub(1));
+    let first = lengths.map(|length| u32::from(length > 0));
+    let total: u32 = counts.iter().sum();
+    let rest = |axis: usize| numbers[axis] & ((1 << counts[axis]) - 1);
+
+    // Mostly they are few enough to be taken at once.
+    if total <= MOST_BITS {
+        if total == 0 {
+            return first;
+        }
+        let [_, y, z] = counts;
+        let bits = (rest(0) << y | rest(1)) << z | rest(2);
+        let bits = port.bits(LANES[0], total, bits);
+        let with_first =
+            |axis: usize, bits: u32| first[axis] << counts[axis] | bits & ((1 << counts[axis]) - 1);
+        return [
+            with_first(0, bits >> (y + z)),
+            with_first(1, bits >> z),
+            with_first(2, bits),
+        ];
+    }
+    [0, 1, 2].map(|axis| long_rest(port, first[axis], counts[axis], numbers[axis]))
+}
+
+/// The bits after the first one, which is set if there are any.
+fn long_rest(port: &mut impl Port, first: u32, count: u32, number: u32) -> u32 {
+    let (mut value, mut left) = (first, count);
+    while left > 0 {
+        let count = left.min(MOST_BITS);
+        left -= count;
+        let bits = (number >> left) & ((1 << count) - 1);
+        value = value << count | port.bits(LANES[0], count, bits);
+    }
+    value
 }
 
 /// How many more bits than 15 a number has: up to 17.
 #[cold]
 fn more(table: &mut AdaptiveTable, port: &mut impl Port, more: u32) -> u32 {
-    let symbol = port.code(table, more.min(MOST) as usize);
+    let symbol = port.code(LANES[0], table, more.min(MOST) as usize);
     table.see(symbol);
     match index32(symbol) {
-        MOST => (MOST + port.bits(2, more.wrapping_sub(MOST) & 3)).min(17),
+        MOST => (MOST + port.bits(LANES[0], 2, more.wrapping_sub(MOST) & 3)).min(17),
         more => more,
     }
 }
 
 impl<C: Coordinate> VertexCoder for Positions<'_, C> {
-    const IS_NOTHING: bool = false;
+    const LANES: usize = 3;
 
     #[inline]
     fn code(&mut self, port: &mut impl Port, source: u32, near: [u32; 3]) {
@@ -161,17 +193,21 @@ impl<C: Coordinate> VertexCoder for Positions<'_, C> {
             .source
             .map_or([0; 3], |source_of| source_of[source as usize]);
 
-        // What there is.
-        let mut next = Near::default();
-        for (axis, &given) in given.iter().enumerate() {
-            let expected = C::complete(a.position[axis], b.position[axis], c.position[axis]);
+        // How far that is from what there is.
+        let expected =
+            [0, 1, 2].map(|axis| C::complete(a.position[axis], b.position[axis], c.position[axis]));
+        let numbers = [0, 1, 2].map(|axis| folded(given[axis].wrapping_sub(expected[axis])));
+        let mut lengths = [0; 3];
+        for axis in 0..3 {
             let context = usize::from((a.levels[axis] + b.levels[axis]).div_ceil(2));
-            let context = context.min(LEVELS - 1);
-            let difference = given.wrapping_sub(expected);
-            let (difference, level) = self.difference(port, axis, context, difference);
-            next.position[axis] = expected.wrapping_add(difference);
-            next.levels[axis] = level.to_le_bytes()[0];
+            let length = u32::BITS - numbers[axis].leading_zeros();
+            lengths[axis] = self.length(port, axis, context.min(LEVELS - 1), length);
         }
+        let numbers = rest_of(port, lengths, numbers);
+        let next = Near {
+            position: [0, 1, 2].map(|axis| expected[axis].wrapping_add(unfolded(numbers[axis]))),
+            levels: lengths.map(|length| length.to_le_bytes()[0]),
+        };
         self.near.push(near[0], next);
         if self.source.is_none() {
             self.read.push(next.position);

@@ -77,7 +77,7 @@ impl Blocks {
         let rest = (0..index32(vertex_count)).filter(|&vertex| encoder.is_new(vertex));
         let rest: Vec<u32> = rest.collect();
         encoder.old.extend(rest);
-        if !V::IS_NOTHING {
+        if V::LANES > 0 {
             let mut vertex = index32(met);
             while (vertex as usize) < vertex_count {
                 let end = vertex_count.min((vertex as usize).saturating_add(block_size.0));
@@ -107,13 +107,14 @@ impl Blocks {
         }
 
         // The orders.
+        let [of_faces, of_vertices @ ..] = encoder.port.bits_of_lanes();
         let proper_order = encoder.drawn.iter().map(|&place| proper[place as usize].0);
         let order = proper_order.chain(flat.iter().map(|&(_, number)| number));
         let order = Permutation::from_algorithm(order.collect());
         let mut rotations = encoder.rotations;
         rotations.resize(face_count, 0);
         Self {
-            bits: encoder.port.bits_of_kinds(),
+            bits: [of_faces, of_vertices.iter().sum()],
             bytes,
             vertices: vertices.into(),
             faces: FaceOrder::new(order, rotations).expect("a rotation for each face"),
@@ -180,9 +181,9 @@ impl<V: VertexCoder> BlockReader<V> {
     }
 
     fn apart_left(&self) -> usize {
-        match V::IS_NOTHING {
-            true => 0,
-            false => {
+        match V::LANES {
+            0 => 0,
+            _ => {
                 let met = self.traversal.known.vertex_count() as usize;
                 self.vertex_count - met - self.apart_read
             }

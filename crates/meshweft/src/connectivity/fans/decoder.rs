@@ -26,7 +26,7 @@ impl<V: VertexCoder> FanDecoder<V> {
             faces: Vec::new(),
             model: Model::new(),
             at_vertices,
-            port: RansDecoder::default(),
+            port: RansDecoder::new(1 + V::LANES),
         }
     }
 }

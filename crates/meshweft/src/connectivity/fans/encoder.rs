@@ -57,7 +57,7 @@ impl<'a, V: VertexCoder> FanEncoder<'a, V> {
             rotations: Vec::with_capacity(faces.len()),
             model: Model::new(),
             at_vertices,
-            port: RansEncoder::default(),
+            port: RansEncoder::new(1 + V::LANES),
         }
     }
 
@@ -77,9 +77,7 @@ impl<'a, V: VertexCoder> FanEncoder<'a, V> {
     #[inline]
     pub(super) fn code_vertex(&mut self, vertex: u32, near: [u32; 3]) {
         let source = self.old[vertex as usize];
-        self.port.count_as(true);
         self.at_vertices.code(&mut self.port, source, near);
-        self.port.count_as(false);
     }
 
     /// The vertex to which a face leads.

@@ -25,7 +25,6 @@ use crate::bits::{DecodeError, DecodeErrorKind};
 use crate::faces::Faces;
 use crate::permutation::{FaceOrder, VertexOrder};
 pub(crate) use blocks::{BlockReader, BlockSize, Blocks};
-pub(crate) use model::Port;
 pub(crate) use vertex_coder::VertexCoder;
 
 /// Faces as bytes, and the orders in which vertices and faces come back.

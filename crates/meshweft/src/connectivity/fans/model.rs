@@ -1,49 +1,15 @@
 //! What is likely, by what is around.
 
 use super::traversal::{FanTurn, Gap, MOST_NEW, Run};
-use crate::bits::{AdaptiveTable, RansDecoder, RansEncoder, SYMBOLS};
+use crate::bits::{AdaptiveTable, Lane, Port, SYMBOLS};
 use crate::index::index32;
 
 /// More known faces at a root, at the first neighbour and at the other end are all the same.
 const MOST_KNOWN: [u32; 3] = [10, 6, 8];
 /// A larger surplus, or shortage, is all the same.
 const MOST_SURPLUS: i32 = 3;
-/// So many symbols are also seen by the table from which others begin.
-const YOUNG: u16 = 40;
-
-/// Reads or writes a symbol by a table.
-pub(crate) trait Port {
-    /// The symbol that was read, or the one that was given.
-    fn code(&mut self, table: &AdaptiveTable, symbol: usize) -> usize;
-    /// Up to 15 bits that were read, or those that were given.
-    fn bits(&mut self, count: u32, bits: u32) -> u32;
-}
-
-impl Port for RansEncoder {
-    #[inline]
-    fn code(&mut self, table: &AdaptiveTable, symbol: usize) -> usize {
-        self.push(table, symbol);
-        symbol
-    }
-
-    #[inline]
-    fn bits(&mut self, count: u32, bits: u32) -> u32 {
-        self.push_bits(count, bits);
-        bits
-    }
-}
-
-impl Port for RansDecoder {
-    #[inline]
-    fn code(&mut self, table: &AdaptiveTable, _: usize) -> usize {
-        self.pop(table)
-    }
-
-    #[inline]
-    fn bits(&mut self, count: u32, _: u32) -> u32 {
-        self.pop_bits(count)
-    }
-}
+/// Faces are coded in a lane of their own.
+pub(super) const LANE: Lane = Lane::ALL[0];
 
 /// Tables for all that is coded.
 #[derive(Debug)]
@@ -102,8 +68,8 @@ impl Model {
 
         // The symbol.
         let symbol = 2 * run.new.min(MOST_NEW) + usize::from(run.is_end);
-        let symbol = port.code(&ends.with(surplus), symbol);
-        if ends.has_seen_less_than(YOUNG) {
+        let symbol = port.code(LANE, &ends.with(surplus), symbol);
+        if ends.is_young() {
             parent.see(symbol);
         }
         ends.see(symbol);
@@ -124,8 +90,8 @@ impl Model {
         let parent = &mut self.turns[backward];
         let table = &mut self.turns_by_ends[(backward * (froms + 1) + from) * (tos + 1) + to];
         let table = table.get_or_insert_with(|| parent.child());
-        let turn = port.code(table, turn);
-        if table.has_seen_less_than(YOUNG) {
+        let turn = port.code(LANE, table, turn);
+        if table.is_young() {
             parent.see(turn);
         }
         table.see(turn);
@@ -149,7 +115,7 @@ impl Model {
             (_, 0..7) => 8 + before_last,
             _ => 15,
         };
-        let near = port.code(&self.nearness, near as usize);
+        let near = port.code(LANE, &self.nearness, near as usize);
         self.nearness.see(near);
         match index32(near) {
             near @ 0..8 => root + 1 + near,
@@ -166,7 +132,7 @@ impl Model {
         count: u32,
         vertex: Option<u32>,
     ) -> Option<u32> {
-        let is_known = port.code(&self.newness, usize::from(vertex.is_some()));
+        let is_known = port.code(LANE, &self.newness, usize::from(vertex.is_some()));
         self.newness.see(is_known);
         (is_known != 0).then(|| self.known(port, root, count, vertex.unwrap_or(0)))
     }
@@ -176,11 +142,11 @@ impl Model {
         let above = u64::from(number) + 1;
         let mut length = above.ilog2() as usize;
         let most = SYMBOLS - 1;
-        let short = port.code(&self.lengths[0], length.min(most));
+        let short = port.code(LANE, &self.lengths[0], length.min(most));
         self.lengths[0].see(short);
         length = match short == most {
             true => {
-                let more = port.code(&self.lengths[1], length.saturating_sub(most));
+                let more = port.code(LANE, &self.lengths[1], length.saturating_sub(most));
                 self.lengths[1].see(more);
                 most + more
             }
@@ -193,7 +159,7 @@ impl Model {
             let width = (length - shift).min(4);
             let bits = (above >> shift) & ((1 << width) - 1);
             let bits = usize::try_from(bits).unwrap_or(0);
-            let bits = port.code(&AdaptiveTable::EVEN, bits << (4 - width)) >> (4 - width);
+            let bits = port.code(LANE, &AdaptiveTable::EVEN, bits << (4 - width)) >> (4 - width);
             value |= (bits as u64) << shift;
         }
         let value = (value | 1 << length) - 1;

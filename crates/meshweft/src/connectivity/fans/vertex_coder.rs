@@ -1,11 +1,11 @@
 //! What is coded with each vertex, between the faces.
 
-use super::model::Port;
+use crate::bits::Port;
 
 /// Codes something with each vertex, when it is met.
 pub(crate) trait VertexCoder {
-    /// Whether nothing is coded.
-    const IS_NOTHING: bool;
+    /// How many lanes are used beyond that of the faces.
+    const LANES: usize;
 
     /// Codes what belongs to the next vertex: to one of the source for who writes. It lies opposite to the third
     /// of three vertices across the edge of the first and second, as far as that is known. For the first vertex of
@@ -15,7 +15,7 @@ pub(crate) trait VertexCoder {
 
 /// Faces only.
 impl VertexCoder for () {
-    const IS_NOTHING: bool = true;
+    const LANES: usize = 0;
 
     #[inline]
     fn code(&mut self, _: &mut impl Port, _: u32, _: [u32; 3]) {}
