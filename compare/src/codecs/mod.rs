@@ -104,6 +104,7 @@ pub fn all() -> Vec<Box<dyn Codec>> {
         meshopt(FaceOrdering::Strip, best),
         Box::new(fans::Fans),
         Box::new(compressed::Compressed(meshweft::compression::Tier::Fast)),
+        Box::new(compressed::Compressed(meshweft::compression::Tier::Default)),
     ]
 }
 

@@ -32,7 +32,12 @@ pub(crate) struct Compress {
     #[arg(long)]
     dry_run: bool,
     /// What is paid for a smaller file
-    #[arg(long, value_name = "TIER", default_value = "fast", display_order = 1)]
+    #[arg(
+        long,
+        value_name = "TIER",
+        default_value = "default",
+        display_order = 1
+    )]
     tier: TierName,
     /// lossless, or 1 to 30: the largest extent of the file is two to the power of this, minus one, steps long
     #[arg(
@@ -79,6 +84,8 @@ pub(crate) struct Compress {
 enum TierName {
     /// The fastest to decode
     Fast,
+    /// Fewer bytes: how vertices lie says what faces are likely
+    Default,
 }
 
 /// Bits such as `14`, or `lossless`.
@@ -120,6 +127,7 @@ impl Compress {
         let mut options = CompressOptions::default();
         options.tier = match self.tier {
             TierName::Fast => Tier::Fast,
+            TierName::Default => Tier::Default,
         };
         options.positions = match (self.position_step, self.position_bits.0) {
             (Some(step), _) => PositionPrecision::Step(step),

@@ -5,10 +5,13 @@
 mod adaptive_table;
 mod checksum;
 mod error;
+mod logistic;
+mod mixed_bit;
 mod rans;
 pub(crate) mod varint;
 
 pub(crate) use adaptive_table::{AdaptiveTable, SYMBOLS};
 pub(crate) use checksum::crc32;
 pub use error::{DecodeError, DecodeErrorKind};
+pub(crate) use mixed_bit::{BitChance, Weights, code_mixed, even_weights};
 pub(crate) use rans::{Lane, MOST_BITS, Port, RansDecoder, RansEncoder};

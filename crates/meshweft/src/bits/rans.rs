@@ -37,6 +37,20 @@ pub(crate) trait Port {
 
     /// Up to 15 bits that were read, or those that were given.
     fn bits(&mut self, lane: Lane, count: u32, bits: u32) -> u32;
+
+    /// A bit that is set with a chance in parts of 32,768, neither 0 nor all.
+    fn bit(&mut self, lane: Lane, chance: u32, is_set: bool) -> bool;
+}
+
+/// The interval of a bit.
+#[inline(always)]
+fn interval_of(chance: u32, is_set: bool) -> Interval {
+    debug_assert!((1..1 << PRECISION).contains(&chance));
+    let (begin, frequency) = match is_set {
+        true => (0, chance),
+        false => (chance, (1 << PRECISION) - chance),
+    };
+    Interval { begin, frequency }
 }
 
 /// Collects symbols, and writes them.
@@ -116,6 +130,12 @@ impl Port for RansEncoder {
         let begin = bits * frequency;
         self.push(lane, Interval { begin, frequency });
         bits
+    }
+
+    #[inline]
+    fn bit(&mut self, lane: Lane, chance: u32, is_set: bool) -> bool {
+        self.push(lane, interval_of(chance, is_set));
+        is_set
     }
 }
 
@@ -242,6 +262,13 @@ impl Port for RansDecoder {
         let begin = bits * frequency;
         self.take(lane, Interval { begin, frequency });
         bits
+    }
+
+    #[inline(always)]
+    fn bit(&mut self, lane: Lane, chance: u32, _: bool) -> bool {
+        let is_set = self.states[lane.index()] & ((1 << PRECISION) - 1) < chance;
+        self.take(lane, interval_of(chance, is_set));
+        is_set
     }
 }
 

@@ -1,10 +1,10 @@
 //! A mesh as bytes.
 
 use super::BLOCK_SIZE;
-use super::options::{CodeError, CodeOptions, PositionCoding};
-use super::positions::{Exact, OnLattice, Positions};
+use super::options::{CodeError, CodeOptions, PositionCoding, Tier};
+use super::positions::{Coordinate, Exact, OnLattice, Positions};
 use crate::bits::varint;
-use crate::connectivity::Blocks;
+use crate::connectivity::{Blocks, MixedModel, TableModel};
 use crate::faces::Faces;
 use crate::geometry::Lattice;
 use crate::mesh::Mesh;
@@ -89,8 +89,7 @@ impl MeshCode {
             PositionCoding::Lossless => {
                 let numbers = mesh.positions().iter();
                 let numbers: Vec<_> = numbers.map(|position| position.map(Exact::of)).collect();
-                let coder = Positions::<Exact>::new(Some(&numbers));
-                Blocks::write(faces, vertex, BLOCK_SIZE, coder)
+                write::<Exact>(options.tier, faces, vertex, &numbers)
             }
             PositionCoding::OnLattice(lattice) => {
                 let (origin, numbers) = on_lattice(mesh.positions(), lattice)?;
@@ -98,8 +97,7 @@ impl MeshCode {
                 for multiple in origin {
                     varint::write(&mut bytes, varint::zigzag(multiple));
                 }
-                let coder = Positions::<OnLattice>::new(Some(&numbers));
-                Blocks::write(faces, vertex, BLOCK_SIZE, coder)
+                write::<OnLattice>(options.tier, faces, vertex, &numbers)
             }
         };
         bytes.extend(blocks.bytes);
@@ -138,6 +136,20 @@ impl MeshCode {
     #[must_use]
     pub fn sizes(&self) -> CodeSizes {
         self.sizes
+    }
+}
+
+/// Writes the blocks of a tier.
+fn write<C: Coordinate>(tier: Tier, faces: Faces<'_>, vertex: u32, numbers: &[[u32; 3]]) -> Blocks {
+    match tier {
+        Tier::Fast => {
+            let coder = Positions::<C, TableModel>::new(Some(numbers));
+            Blocks::write(faces, vertex, BLOCK_SIZE, coder)
+        }
+        Tier::Default => {
+            let coder = Positions::<C, MixedModel>::new(Some(numbers));
+            Blocks::write(faces, vertex, BLOCK_SIZE, coder)
+        }
     }
 }
 

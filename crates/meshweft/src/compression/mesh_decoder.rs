@@ -3,9 +3,9 @@
 use super::BLOCK_SIZE;
 use super::mesh_code::{IS_LOSSLESS, MeshCode};
 use super::options::Tier;
-use super::positions::{Exact, OnLattice, Positions};
+use super::positions::{Coordinate, Exact, OnLattice, Positions};
 use crate::bits::{DecodeError, DecodeErrorKind, varint};
-use crate::connectivity::BlockReader;
+use crate::connectivity::{BlockReader, FanModel, MixedModel, TableModel};
 use crate::geometry::Lattice;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
@@ -45,27 +45,50 @@ pub struct MeshDecoder {
     error: Option<DecodeError>,
 }
 
-/// The blocks, by how positions are stored.
+/// The blocks, by how positions are stored and faces are coded.
 #[derive(Debug)]
-enum MeshBlocks {
-    Lossless(BlockReader<Positions<'static, Exact>>),
-    OnLattice {
-        reader: BlockReader<Positions<'static, OnLattice>>,
-        lattice: Lattice,
-        origin: [i64; 3],
-    },
+struct MeshBlocks {
+    reader: Reader,
+    frame: Frame,
 }
 
-/// Does the same with either.
+/// How numbers become coordinates.
+#[derive(Debug, Clone, Copy)]
+enum Frame {
+    Lossless,
+    OnLattice { lattice: Lattice, origin: [i64; 3] },
+}
+
+type PositionReader<C, M> = BlockReader<Positions<'static, C, M>>;
+
+#[derive(Debug)]
+enum Reader {
+    FastLossless(PositionReader<Exact, TableModel>),
+    FastOnLattice(PositionReader<OnLattice, TableModel>),
+    Lossless(PositionReader<Exact, MixedModel>),
+    OnLattice(PositionReader<OnLattice, MixedModel>),
+}
+
+/// Does the same with any.
 macro_rules! with_reader {
     ($of:expr, $reader:ident => $do:expr) => {
         match $of {
-            MeshBlocks::Lossless($reader) => $do,
-            MeshBlocks::OnLattice {
-                reader: $reader, ..
-            } => $do,
+            Reader::FastLossless($reader) => $do,
+            Reader::FastOnLattice($reader) => $do,
+            Reader::Lossless($reader) => $do,
+            Reader::OnLattice($reader) => $do,
         }
     };
+}
+
+impl Frame {
+    fn coordinates(&self, numbers: [u32; 3]) -> [f32; 3] {
+        match self {
+            Self::Lossless => numbers.map(Exact::coordinate),
+            Self::OnLattice { lattice, origin } => [0, 1, 2]
+                .map(|axis| lattice.coordinate(origin[axis].saturating_add(numbers[axis].into()))),
+        }
+    }
 }
 
 impl MeshDecoder {
@@ -126,26 +149,14 @@ impl MeshDecoder {
             let is_there = self.reader.is_some();
             return Ok(is_there.then_some(bytes.len() - rest.len()));
         };
-        let read = with_reader!(reader, reader => reader.read_piece(bytes))?;
-        match reader {
-            MeshBlocks::Lossless(reader) => {
-                let read = reader.at_vertices().read.drain(..);
-                self.positions
-                    .extend(read.map(|numbers| numbers.map(Exact::coordinate)));
-            }
-            MeshBlocks::OnLattice {
-                reader,
-                lattice,
-                origin,
-            } => {
-                let read = reader.at_vertices().read.drain(..);
-                self.positions.extend(read.map(|numbers| {
-                    [0, 1, 2].map(|axis| {
-                        lattice.coordinate(origin[axis].saturating_add(numbers[axis].into()))
-                    })
-                }));
-            }
-        }
+        let MeshBlocks { reader, frame } = reader;
+        let positions = &mut self.positions;
+        let read = with_reader!(reader, reader => {
+            let read = reader.read_piece(bytes)?;
+            let numbers = reader.at_vertices().read.drain(..);
+            positions.extend(numbers.map(|numbers| frame.coordinates(numbers)));
+            read
+        });
         Ok(read)
     }
 
@@ -153,14 +164,14 @@ impl MeshDecoder {
     #[must_use]
     pub fn is_complete(&self) -> bool {
         let reader = self.reader.as_ref();
-        reader.is_some_and(|reader| with_reader!(reader, reader => reader.is_complete()))
+        reader.is_some_and(|reader| with_reader!(&reader.reader, reader => reader.is_complete()))
     }
 
     /// How many vertices and faces the mesh has, once that was read.
     #[must_use]
     pub fn counts(&self) -> Option<[usize; 2]> {
         let reader = self.reader.as_ref()?;
-        Some(with_reader!(reader, reader => reader.counts()))
+        Some(with_reader!(&reader.reader, reader => reader.counts()))
     }
 
     /// The positions that were read since they were last taken, in the order of the vertices.
@@ -171,7 +182,9 @@ impl MeshDecoder {
     /// The faces that were read since they were last taken.
     pub fn take_faces(&mut self) -> Vec<[u32; 3]> {
         match &mut self.reader {
-            Some(reader) => with_reader!(reader, reader => std::mem::take(reader.faces())),
+            Some(reader) => {
+                with_reader!(&mut reader.reader, reader => std::mem::take(reader.faces()))
+            }
             None => Vec::new(),
         }
     }
@@ -224,9 +237,8 @@ fn read_beginning(
         what,
         found: found.into(),
     };
-    if Tier::ALL.get(usize::from(tier)).is_none() {
-        return Err(unknown("tier", tier));
-    }
+    let tier = Tier::ALL.get(usize::from(tier));
+    let tier = *tier.ok_or(unknown("tier", bytes[0]))?;
     if flags & !IS_LOSSLESS != 0 {
         return Err(unknown("kind of stream", flags));
     }
@@ -248,10 +260,8 @@ fn read_beginning(
     let [vertices, faces] = counts;
 
     // Where positions are.
-    let reader = if flags & IS_LOSSLESS != 0 {
-        let positions = Positions::new(None);
-        MeshBlocks::Lossless(BlockReader::new(faces, vertices, BLOCK_SIZE, positions))
-    } else {
+    let mut frame = Frame::Lossless;
+    if flags & IS_LOSSLESS == 0 {
         let Some((step, mut after)) = rest.split_first_chunk() else {
             return Ok(None);
         };
@@ -265,13 +275,21 @@ fn read_beginning(
             }
         }
         rest = after;
-        let positions = Positions::new(None);
-        MeshBlocks::OnLattice {
-            reader: BlockReader::new(faces, vertices, BLOCK_SIZE, positions),
-            lattice,
-            origin,
-        }
+        frame = Frame::OnLattice { lattice, origin };
+    }
+
+    // What reads them.
+    let counts = [faces, vertices];
+    let reader = match (tier, frame) {
+        (Tier::Fast, Frame::Lossless) => Reader::FastLossless(reader_of(counts)),
+        (Tier::Fast, Frame::OnLattice { .. }) => Reader::FastOnLattice(reader_of(counts)),
+        (Tier::Default, Frame::Lossless) => Reader::Lossless(reader_of(counts)),
+        (Tier::Default, Frame::OnLattice { .. }) => Reader::OnLattice(reader_of(counts)),
     };
     *bytes = rest;
-    Ok(Some(reader))
+    Ok(Some(MeshBlocks { reader, frame }))
+}
+
+fn reader_of<C: Coordinate, M: FanModel>([faces, vertices]: [usize; 2]) -> PositionReader<C, M> {
+    BlockReader::new(faces, vertices, BLOCK_SIZE, Positions::new(None))
 }

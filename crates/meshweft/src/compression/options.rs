@@ -9,13 +9,15 @@ use crate::geometry::Lattice;
 #[non_exhaustive]
 pub enum Tier {
     /// Tables of frequencies by what is around: the fastest to decode.
-    #[default]
     Fast,
+    /// Chances that are mixed from what is around and how it lies: fewer bytes.
+    #[default]
+    Default,
 }
 
 impl Tier {
     /// All tiers, by the number that a stream has for them.
-    pub(super) const ALL: [Self; 1] = [Self::Fast];
+    pub(super) const ALL: [Self; 2] = [Self::Fast, Self::Default];
 }
 
 /// How positions are stored.

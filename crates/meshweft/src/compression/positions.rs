@@ -2,7 +2,7 @@
 
 use super::ring::Ring;
 use crate::bits::{AdaptiveTable, Lane, MOST_BITS, Port, SYMBOLS};
-use crate::connectivity::VertexCoder;
+use crate::connectivity::{FanModel, VertexCoder};
 use crate::index::index32;
 
 /// The last symbol: this number or more.
@@ -20,6 +20,9 @@ const LANES: [Lane; 3] = [Lane::ALL[1], Lane::ALL[2], Lane::ALL[3]];
 pub(super) trait Coordinate {
     /// What completes a parallelogram: `a + b - c`.
     fn complete(a: u32, b: u32, c: u32) -> u32;
+
+    /// What the number stands for, but for its unit and a shift.
+    fn value(number: u32) -> f64;
 }
 
 /// Multiples of a step, two to the power of 32 being 0.
@@ -30,6 +33,11 @@ impl Coordinate for OnLattice {
     #[inline]
     fn complete(a: u32, b: u32, c: u32) -> u32 {
         a.wrapping_add(b).wrapping_sub(c)
+    }
+
+    #[inline]
+    fn value(number: u32) -> f64 {
+        number.into()
     }
 }
 
@@ -65,6 +73,11 @@ impl Coordinate for Exact {
         // The bits of a NaN are not the same everywhere.
         if sum.is_nan() { a } else { Self::of(sum) }
     }
+
+    #[inline]
+    fn value(number: u32) -> f64 {
+        Self::coordinate(number).into()
+    }
 }
 
 /// Where positions come from when they are written: by vertex of the source.
@@ -80,7 +93,7 @@ struct Near {
 
 /// Positions of vertices as they are met.
 #[derive(Debug)]
-pub(super) struct Positions<'a, C> {
+pub(super) struct Positions<'a, C, M> {
     source: Source<'a>,
     near: Ring<Near>,
     /// How many bits, by axis and neighbours.
@@ -89,10 +102,10 @@ pub(super) struct Positions<'a, C> {
     more: AdaptiveTable,
     /// Those that were read, until they are taken.
     pub(super) read: Vec<[u32; 3]>,
-    coordinate: std::marker::PhantomData<C>,
+    kinds: std::marker::PhantomData<(C, M)>,
 }
 
-impl<'a, C: Coordinate> Positions<'a, C> {
+impl<'a, C: Coordinate, M> Positions<'a, C, M> {
     pub(super) fn new(source: Source<'a>) -> Self {
         Self {
             source,
@@ -100,8 +113,14 @@ impl<'a, C: Coordinate> Positions<'a, C> {
             levels: [[AdaptiveTable::EVEN; LEVELS]; 3],
             more: AdaptiveTable::EVEN,
             read: Vec::new(),
-            coordinate: std::marker::PhantomData,
+            kinds: std::marker::PhantomData,
         }
+    }
+
+    #[inline]
+    fn point(&self, vertex: u32) -> [f64; 3] {
+        let [x, y, z] = self.near.get(vertex).position;
+        [C::value(x), C::value(y), C::value(z)]
     }
 
     /// How many bits the number of a difference has.
@@ -179,7 +198,9 @@ fn more(table: &mut AdaptiveTable, port: &mut impl Port, more: u32) -> u32 {
     }
 }
 
-impl<C: Coordinate> VertexCoder for Positions<'_, C> {
+impl<C: Coordinate, M: FanModel> VertexCoder for Positions<'_, C, M> {
+    type Model = M;
+
     const LANES: usize = 3;
 
     #[inline]
@@ -213,4 +234,63 @@ impl<C: Coordinate> VertexCoder for Positions<'_, C> {
             self.read.push(next.position);
         }
     }
+
+    #[inline]
+    fn reach(&self, [root, from]: [u32; 2], across: u32, vertex: u32) -> u8 {
+        let [root, from, across, vertex] = [
+            self.point(root),
+            self.point(from),
+            self.point(across),
+            self.point(vertex),
+        ];
+        let mut way = [0.0; 3];
+        for axis in 0..3 {
+            way[axis] = vertex[axis] - (from[axis] + root[axis] - across[axis]);
+        }
+        let edge = minus(from, root);
+        steps(dot(way, way), dot(edge, edge))
+    }
+
+    #[inline]
+    fn angle(&self, [at, one, other]: [u32; 3]) -> u8 {
+        let at = self.point(at);
+        let [one, other] = [minus(self.point(one), at), minus(self.point(other), at)];
+        steps_of_angle(dot(one, other), dot(one, one) * dot(other, other))
+    }
+}
+
+#[inline]
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline]
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// About half octaves of the ratio of two squares, from two to the power of -4 on: 1 to 15, or 0 for no number, whose bits
+/// are not the same everywhere.
+#[inline]
+fn steps(square: f64, unit: f64) -> u8 {
+    // Bits of numbers above 0 are about their logarithms.
+    let is_there = square < f64::INFINITY && unit > 0.0 && unit < f64::INFINITY;
+    if !is_there {
+        return 0;
+    }
+    let bits = |square: f64| square.to_bits().cast_signed();
+    let half_octaves = (bits(square) - bits(unit)) >> 51;
+    1 + (half_octaves + 8).clamp(0, 14).to_le_bytes()[0]
+}
+
+/// By the square of the cosine, from 1, opposite, to 31, the same way; 0 for no angle. `square` is that of both lengths.
+#[inline]
+fn steps_of_angle(product: f64, square: f64) -> u8 {
+    let cosine = product * product.abs() / square;
+    if cosine.is_nan() {
+        return 0;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "from -15 to 15")]
+    let steps = (cosine * 15.5) as i32;
+    (16 + steps.clamp(-15, 15)).to_le_bytes()[0]
 }

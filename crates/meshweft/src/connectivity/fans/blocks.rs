@@ -130,7 +130,7 @@ fn append(bytes: &mut Vec<u8>, block: &mut Vec<u8>) {
 
 /// Reads what [`Blocks`] are, block by block.
 #[derive(Debug)]
-pub(crate) struct BlockReader<V> {
+pub(crate) struct BlockReader<V: VertexCoder> {
     traversal: Traversal<FanDecoder<V>>,
     block_size: BlockSize,
     face_count: usize,

@@ -1,19 +1,19 @@
 //! Reads fans as faces.
 
+use super::fan_model::FanModel;
 use super::known_faces::KnownFaces;
-use super::model::Model;
 use super::traversal::{FanTurn, Fans, Gap, Run};
-use super::vertex_coder::VertexCoder;
+use super::vertex_coder::{VertexCoder, beyond, outlook};
 use crate::bits::{DecodeError, DecodeErrorKind, RansDecoder};
 
 /// The faces so far.
 #[derive(Debug)]
-pub(super) struct FanDecoder<V> {
+pub(super) struct FanDecoder<V: VertexCoder> {
     /// The roots that have faces which follow no others, rising, and how many of them are done.
     pub(super) more: Vec<u32>,
     pub(super) passed: usize,
     pub(super) faces: Vec<[u32; 3]>,
-    model: Model,
+    model: V::Model,
     pub(super) at_vertices: V,
     pub(super) port: RansDecoder,
 }
@@ -24,7 +24,7 @@ impl<V: VertexCoder> FanDecoder<V> {
             more: Vec::new(),
             passed: 0,
             faces: Vec::new(),
-            model: Model::new(),
+            model: V::Model::new(),
             at_vertices,
             port: RansDecoder::new(1 + V::LANES),
         }
@@ -37,17 +37,15 @@ impl<V: VertexCoder> Fans for FanDecoder<V> {
     fn begin_root(&mut self, _: u32) {}
 
     #[inline]
-    fn run(&mut self, gap: &Gap) -> Run {
-        let any = Run {
-            new: 0,
-            is_end: false,
-        };
-        self.model.run(&mut self.port, gap, any)
+    fn run(&mut self, gap: &Gap, known: &KnownFaces) -> Run {
+        let outlook = outlook(&self.at_vertices, gap, known);
+        self.model.run(&mut self.port, gap, outlook, Run::ONE)
     }
 
     #[inline]
-    fn turn(&mut self, gap: &Gap, _: &KnownFaces) -> FanTurn {
-        self.model.turn(&mut self.port, gap, 0)
+    fn turn(&mut self, gap: &Gap, known: &KnownFaces) -> FanTurn {
+        let beyond = beyond(&self.at_vertices, gap, known);
+        self.model.turn(&mut self.port, gap, beyond, 0)
     }
 
     fn known(&mut self, gap: &Gap, count: u32) -> u32 {

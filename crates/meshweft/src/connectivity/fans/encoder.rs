@@ -1,17 +1,17 @@
 //! Writes faces as fans.
 
 use super::at_root::{AtRoot, Rank, RootFace};
+use super::fan_model::FanModel;
 use super::known_faces::{KnownFaces, NONE};
-use super::model::Model;
-use super::traversal::{FanTurn, Fans, Gap, MOST_NEW, Run};
-use super::vertex_coder::VertexCoder;
+use super::traversal::{FanTurn, Fans, Gap, Run};
+use super::vertex_coder::{VertexCoder, beyond, outlook};
 use crate::bits::{DecodeError, DecodeErrorKind, RansEncoder};
 use crate::faces::{Faces, turned};
 use crate::index::index32;
 use crate::topology::Adjacency;
 
 /// The faces and what is left of them.
-pub(super) struct FanEncoder<'a, V> {
+pub(super) struct FanEncoder<'a, V: VertexCoder> {
     faces: &'a [[u32; 3]],
     adjacency: Adjacency,
     is_drawn: Vec<bool>,
@@ -33,7 +33,7 @@ pub(super) struct FanEncoder<'a, V> {
     /// The faces in the order in which they are drawn, and their turns.
     pub(super) drawn: Vec<u32>,
     pub(super) rotations: Vec<u8>,
-    model: Model,
+    model: V::Model,
     at_vertices: V,
     pub(super) port: RansEncoder,
 }
@@ -55,7 +55,7 @@ impl<'a, V: VertexCoder> FanEncoder<'a, V> {
             more: Vec::new(),
             drawn: Vec::with_capacity(faces.len()),
             rotations: Vec::with_capacity(faces.len()),
-            model: Model::new(),
+            model: V::Model::new(),
             at_vertices,
             port: RansEncoder::new(1 + V::LANES),
         }
@@ -138,21 +138,26 @@ impl<V: VertexCoder> Fans for FanEncoder<'_, V> {
         self.at_root.set(at_root, |it| rank(new, it));
     }
 
-    fn run(&mut self, gap: &Gap) -> Run {
+    fn run(&mut self, gap: &Gap, known: &KnownFaces) -> Run {
+        let outlook = outlook(&self.at_vertices, gap, known);
         let mut neighbour = self.old[gap.from as usize];
         let end = self.old[gap.to as usize];
         let mut run = Run {
             new: 0,
             is_end: false,
+            goes_on: false,
         };
         self.chosen = None;
         while let Some(place) = self.at_root.first_at(neighbour, gap.is_backward) {
             let vertex = self.led_to(gap, place);
-            if self.is_new(vertex) && run.new < MOST_NEW {
+            if self.is_new(vertex) && run.new < V::Model::MOST_NEW {
                 self.meet(vertex);
                 self.draw(place);
                 run.new += 1;
                 neighbour = vertex;
+                if V::Model::MOST_NEW == 1 {
+                    return self.model.run(&mut self.port, gap, outlook, Run::ONE);
+                }
             } else if vertex == end && vertex != neighbour && gap.can_close() {
                 self.draw(place);
                 run.is_end = true;
@@ -163,7 +168,7 @@ impl<V: VertexCoder> Fans for FanEncoder<'_, V> {
             }
         }
         run.is_end |= !gap.can_close() && self.chosen.is_none();
-        self.model.run(&mut self.port, gap, run)
+        self.model.run(&mut self.port, gap, outlook, run)
     }
 
     fn turn(&mut self, gap: &Gap, known: &KnownFaces) -> FanTurn {
@@ -178,7 +183,8 @@ impl<V: VertexCoder> Fans for FanEncoder<'_, V> {
         };
         let found = FanTurn::ALL.iter().position(is_it);
         let found = found.expect("any vertex that was met is known");
-        let turn = self.model.turn(&mut self.port, gap, found);
+        let beyond = beyond(&self.at_vertices, gap, known);
+        let turn = self.model.turn(&mut self.port, gap, beyond, found);
         if !matches!(turn, FanTurn::Known | FanTurn::Stop | FanTurn::GoOn)
             && let Some(place) = self.chosen
         {

@@ -14,7 +14,9 @@ mod at_root;
 mod blocks;
 mod decoder;
 mod encoder;
+mod fan_model;
 mod known_faces;
+mod mixed_model;
 mod model;
 #[cfg(test)]
 mod tests;
@@ -25,6 +27,9 @@ use crate::bits::{DecodeError, DecodeErrorKind};
 use crate::faces::Faces;
 use crate::permutation::{FaceOrder, VertexOrder};
 pub(crate) use blocks::{BlockReader, BlockSize, Blocks};
+pub(crate) use fan_model::FanModel;
+pub(crate) use mixed_model::MixedModel;
+pub(crate) use model::TableModel;
 pub(crate) use vertex_coder::VertexCoder;
 
 /// Faces as bytes, and the orders in which vertices and faces come back.

@@ -1,6 +1,7 @@
-//! What is likely, by what is around.
+//! What is likely, by tables of what is known around.
 
-use super::traversal::{FanTurn, Gap, MOST_NEW, Run};
+use super::fan_model::{FanModel, Outlook};
+use super::traversal::{FanTurn, Gap, Run};
 use crate::bits::{AdaptiveTable, Lane, Port, SYMBOLS};
 use crate::index::index32;
 
@@ -13,7 +14,7 @@ pub(super) const LANE: Lane = Lane::ALL[0];
 
 /// Tables for all that is coded.
 #[derive(Debug)]
-pub(super) struct Model {
+pub(crate) struct TableModel {
     /// Of runs, by how many faces the root has.
     by_root: Vec<AdaptiveTable>,
     /// The same, by both ends of the gap too.
@@ -32,8 +33,11 @@ pub(super) struct Model {
     lengths: [AdaptiveTable; 2],
 }
 
-impl Model {
-    pub(super) fn new() -> Self {
+impl FanModel for TableModel {
+    const MOST_NEW: usize = 7;
+    const LOOKS: bool = false;
+
+    fn new() -> Self {
         let [root, from, to] = MOST_KNOWN.map(|most| most as usize);
         let surplus = 2 * MOST_SURPLUS.unsigned_abs() as usize + 1;
         Self {
@@ -50,7 +54,7 @@ impl Model {
 
     /// A run; the mean of two tables says what is likely.
     #[inline]
-    pub(super) fn run(&mut self, port: &mut impl Port, gap: &Gap, run: Run) -> Run {
+    fn run(&mut self, port: &mut impl Port, gap: &Gap, _: Outlook, run: Run) -> Run {
         // Which tables.
         let place = |side: usize| gap.known[side].clamp(1, MOST_KNOWN[side]) as usize - 1;
         let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
@@ -67,7 +71,7 @@ impl Model {
         let surplus = self.by_surplus[by_surplus].get_or_insert_with(|| parent.child());
 
         // The symbol.
-        let symbol = 2 * run.new.min(MOST_NEW) + usize::from(run.is_end);
+        let symbol = 2 * run.new.min(Self::MOST_NEW) + usize::from(run.is_end);
         let symbol = port.code(LANE, &ends.with(surplus), symbol);
         if ends.is_young() {
             parent.see(symbol);
@@ -77,35 +81,17 @@ impl Model {
         Run {
             new: symbol / 2,
             is_end: symbol % 2 == 1,
+            goes_on: false,
         }
     }
 
-    /// A turn; one that is none is a [`FanTurn::Stop`].
     #[inline]
-    pub(super) fn turn(&mut self, port: &mut impl Port, gap: &Gap, turn: usize) -> FanTurn {
-        let backward = usize::from(gap.is_backward);
-        let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
-        let from = gap.known[1].min(MOST_KNOWN[1]) as usize;
-        let to = gap.known[2].min(MOST_KNOWN[2]) as usize;
-        let parent = &mut self.turns[backward];
-        let table = &mut self.turns_by_ends[(backward * (froms + 1) + from) * (tos + 1) + to];
-        let table = table.get_or_insert_with(|| parent.child());
-        let turn = port.code(LANE, table, turn);
-        if table.is_young() {
-            parent.see(turn);
-        }
-        table.see(turn);
-        FanTurn::ALL.get(turn).copied().unwrap_or(FanTurn::Stop)
+    fn turn(&mut self, port: &mut impl Port, gap: &Gap, _: [u8; 2], turn: usize) -> FanTurn {
+        self.turn_with(port, gap, None, turn)
     }
 
     /// A vertex after the root that was met.
-    pub(super) fn known(
-        &mut self,
-        port: &mut impl Port,
-        root: u32,
-        count: u32,
-        vertex: u32,
-    ) -> u32 {
+    fn known(&mut self, port: &mut impl Port, root: u32, count: u32, vertex: u32) -> u32 {
         let (after_root, before_last) = (
             vertex.wrapping_sub(root + 1),
             (count - 1).wrapping_sub(vertex),
@@ -125,7 +111,7 @@ impl Model {
     }
 
     /// A corner of a face that follows no other.
-    pub(super) fn corner(
+    fn corner(
         &mut self,
         port: &mut impl Port,
         root: u32,
@@ -135,6 +121,40 @@ impl Model {
         let is_known = port.code(LANE, &self.newness, usize::from(vertex.is_some()));
         self.newness.see(is_known);
         (is_known != 0).then(|| self.known(port, root, count, vertex.unwrap_or(0)))
+    }
+}
+
+impl TableModel {
+    /// A turn, by the mean of two tables if there is another one.
+    #[inline]
+    pub(super) fn turn_with(
+        &mut self,
+        port: &mut impl Port,
+        gap: &Gap,
+        other: Option<&mut Option<AdaptiveTable>>,
+        turn: usize,
+    ) -> FanTurn {
+        let backward = usize::from(gap.is_backward);
+        let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
+        let from = gap.known[1].min(MOST_KNOWN[1]) as usize;
+        let to = gap.known[2].min(MOST_KNOWN[2]) as usize;
+        let parent = &mut self.turns[backward];
+        let table = &mut self.turns_by_ends[(backward * (froms + 1) + from) * (tos + 1) + to];
+        let table = table.get_or_insert_with(|| parent.child());
+        let turn = match other {
+            None => port.code(LANE, table, turn),
+            Some(other) => {
+                let other = other.get_or_insert_with(|| parent.child());
+                let turn = port.code(LANE, &table.with(other), turn);
+                other.see(turn);
+                turn
+            }
+        };
+        if table.is_young() {
+            parent.see(turn);
+        }
+        table.see(turn);
+        FanTurn::ALL.get(turn).copied().unwrap_or(FanTurn::Stop)
     }
 
     /// A number: how many bits follow the first one that is set in it plus one, then these.

@@ -7,7 +7,7 @@ use crate::index::index32;
 /// What a vertex sees of the next gap around it: the neighbour from which faces go on, and the one at which
 /// they may arrive.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Gap {
+pub(crate) struct Gap {
     pub(super) root: u32,
     /// Where faces go on.
     pub(super) from: u32,
@@ -24,17 +24,25 @@ pub(super) struct Gap {
 /// Faces with new vertices, one after the other, and whether the gap is closed then: where it
 /// [cannot be](Gap::can_close), whether nothing follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Run {
+pub(crate) struct Run {
     pub(super) new: usize,
     pub(super) is_end: bool,
+    /// Whether another run follows, and no turn.
+    pub(super) goes_on: bool,
 }
 
-/// More new vertices take another run.
-pub(super) const MOST_NEW: usize = 7;
+impl Run {
+    /// A new vertex, and another run.
+    pub(super) const ONE: Self = Self {
+        new: 1,
+        is_end: false,
+        goes_on: true,
+    };
+}
 
 /// What comes after a run that does not close the gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum FanTurn {
+pub(crate) enum FanTurn {
     /// A face with a vertex this number of steps back on the front, from where faces go on.
     Before(u32),
     /// A face with a vertex this number of steps on, from the other end of the gap.
@@ -95,7 +103,7 @@ pub(super) trait Fans {
     /// A vertex is the root now.
     fn begin_root(&mut self, root: u32);
     /// The next run.
-    fn run(&mut self, gap: &Gap) -> Run;
+    fn run(&mut self, gap: &Gap, known: &KnownFaces) -> Run;
     /// What comes then.
     fn turn(&mut self, gap: &Gap, known: &KnownFaces) -> FanTurn;
     /// The vertex of [`FanTurn::Known`].
@@ -275,13 +283,13 @@ impl<F: Fans> Traversal<F> {
                     break;
                 }
                 let mut gap = self.gap(root, from, to, path.faces, is_backward);
-                let run = self.fans.run(&gap);
+                let run = self.fans.run(&gap, &self.known);
                 let closes = run.is_end && gap.can_close();
                 self.add_run(&mut gap, run.new, closes)?;
                 if closes || self.faces_left == 0 {
                     return Ok(());
                 }
-                let stops = run.is_end || !self.take_turn(&mut gap, run)?;
+                let stops = run.is_end || !run.goes_on && !self.take_turn(&mut gap, run)?;
 
                 // The path as it is now: longer, joined with another, or closed.
                 let found = match is_backward {
@@ -316,10 +324,9 @@ impl<F: Fans> Traversal<F> {
         self.faces_left -= faces;
 
         // The vertex across the edge from which faces go on.
-        let mut across = match (new, gap.is_backward) {
-            (0, _) => NONE,
-            (_, false) => self.known.third(gap.from, gap.root),
-            (_, true) => self.known.third(gap.root, gap.from),
+        let mut across = match new {
+            0 => NONE,
+            _ => gap.across(&self.known),
         };
         if !gap.is_backward {
             let to = closes.then_some(gap.to);
@@ -383,6 +390,15 @@ impl<F: Fans> Traversal<F> {
 }
 
 impl Gap {
+    /// The third vertex of the known face at the edge from which faces go on, or [`NONE`].
+    #[inline]
+    pub(super) fn across(&self, known: &KnownFaces) -> u32 {
+        match self.is_backward {
+            false => known.third(self.from, self.root),
+            true => known.third(self.root, self.from),
+        }
+    }
+
     /// Whether a face may lead to the other end: to a vertex that was the root, none does any more.
     #[inline]
     pub(super) fn can_close(&self) -> bool {

@@ -110,5 +110,6 @@ fn mesh_to_json(mesh: &CompressedMesh) -> Value {
 fn tier_name(tier: Tier) -> &'static str {
     match tier {
         Tier::Fast => "fast",
+        Tier::Default => "default",
     }
 }
