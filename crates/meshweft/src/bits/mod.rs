@@ -7,6 +7,7 @@ mod checksum;
 mod error;
 mod logistic;
 mod mixed_bit;
+mod number;
 mod rans;
 pub(crate) mod varint;
 
@@ -14,4 +15,5 @@ pub(crate) use adaptive_table::{AdaptiveTable, SYMBOLS};
 pub(crate) use checksum::crc32;
 pub use error::{DecodeError, DecodeErrorKind};
 pub(crate) use mixed_bit::{BitChance, Weights, code_mixed, even_weights};
+pub(crate) use number::NumberCoder;
 pub(crate) use rans::{Lane, MOST_BITS, Port, RansDecoder, RansEncoder};

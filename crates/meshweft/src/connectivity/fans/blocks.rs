@@ -6,6 +6,7 @@
 
 use super::decoder::FanDecoder;
 use super::encoder::FanEncoder;
+use super::flat_faces::{self, FlatFaces};
 use super::traversal::{Fans, Traversal};
 use super::vertex_coder::VertexCoder;
 use crate::bits::{DecodeError, DecodeErrorKind, varint};
@@ -40,12 +41,12 @@ impl Blocks {
         block_size: BlockSize,
         at_vertices: V,
     ) -> Self {
-        let (face_count, vertex_count) = (faces.len(), faces.vertex_count());
+        let vertex_count = faces.vertex_count();
 
         // Faces with a repeated corner apart.
-        let is_flat = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
         let numbered = || (0_u32..).zip(faces.as_slice());
-        let (flat, proper): (Vec<_>, Vec<_>) = numbered().partition(|(_, face)| is_flat(face));
+        let (flat, proper): (Vec<_>, Vec<_>) =
+            numbered().partition(|(_, face)| flat_faces::is_flat(**face));
         let proper_faces: Vec<[u32; 3]> = proper.iter().map(|&(_, face)| *face).collect();
         let mut bytes = Vec::new();
         varint::write(&mut bytes, flat.len() as u64);
@@ -94,25 +95,29 @@ impl Blocks {
         let vertices = Permutation::from_algorithm(encoder.old);
         let new = vertices.inverse();
         let new = new.new_to_old();
-        let mut flat: Vec<([u32; 3], u32)> = flat
-            .into_iter()
-            .map(|(number, face)| (face.map(|vertex| new[vertex as usize]), number))
-            .collect();
+        let renumbered = flat.into_iter().map(|(number, face)| {
+            let (face, rotation) = flat_faces::in_place(face.map(|vertex| new[vertex as usize]));
+            (face, number, rotation)
+        });
+        let mut flat: Vec<([u32; 3], u32, u8)> = renumbered.collect();
         flat.sort_unstable();
+        let mut flat_faces = FlatFaces::new();
         for some in flat.chunks(block_size.0) {
-            for vertex in some.iter().flat_map(|(face, _)| face) {
-                varint::write(&mut block, u64::from(*vertex));
+            for &(face, ..) in some {
+                let coded = flat_faces.code(&mut encoder.port, face, vertex_count);
+                coded.expect("faces that were checked are there");
             }
+            block.extend(encoder.port.finish());
             append(&mut bytes, &mut block);
         }
 
         // The orders.
         let [of_faces, of_vertices @ ..] = encoder.port.bits_of_lanes();
         let proper_order = encoder.drawn.iter().map(|&place| proper[place as usize].0);
-        let order = proper_order.chain(flat.iter().map(|&(_, number)| number));
+        let order = proper_order.chain(flat.iter().map(|&(_, number, _)| number));
         let order = Permutation::from_algorithm(order.collect());
         let mut rotations = encoder.rotations;
-        rotations.resize(face_count, 0);
+        rotations.extend(flat.iter().map(|&(.., rotation)| rotation));
         Self {
             bits: [of_faces, of_vertices.iter().sum()],
             bytes,
@@ -138,6 +143,7 @@ pub(crate) struct BlockReader<V: VertexCoder> {
     /// How many faces name a vertex twice, once that was read, and how many of them were read.
     flat: Option<usize>,
     flat_read: usize,
+    flat_faces: FlatFaces,
     /// Vertices without faces that were read.
     apart_read: usize,
 }
@@ -156,6 +162,7 @@ impl<V: VertexCoder> BlockReader<V> {
             vertex_count,
             flat: None,
             flat_read: 0,
+            flat_faces: FlatFaces::new(),
             apart_read: 0,
         }
     }
@@ -271,25 +278,17 @@ impl<V: VertexCoder> BlockReader<V> {
 
     fn read_flat(&mut self, block: &[u8]) -> Result<(), DecodeError> {
         let left = self.flat.map_or(0, |flat| flat - self.flat_read);
-        let mut rest = block;
+        let fans = &mut self.traversal.fans;
+        fans.port.begin(block);
         for _ in 0..left.min(self.block_size.0) {
-            let mut face = [0; 3];
-            for corner in &mut face {
-                let at = block.len() - rest.len();
-                let vertex = varint::read(&mut rest).ok_or(DecodeError::damaged(at))?;
-                let vertex = u32::try_from(vertex).unwrap_or(u32::MAX);
-                if vertex as usize >= self.vertex_count {
-                    let kind = DecodeErrorKind::NoSuchVertex { vertex };
-                    return Err(DecodeError { byte: at, kind });
-                }
-                *corner = vertex;
-            }
-            self.traversal.fans.faces.push(face);
+            let face = self
+                .flat_faces
+                .code(&mut fans.port, [0; 3], self.vertex_count);
+            let face = face.map_err(|kind| fans.port.error(kind))?;
+            fans.check()?;
+            fans.faces.push(face);
             self.flat_read += 1;
         }
-        match rest.is_empty() {
-            true => Ok(()),
-            false => Err(DecodeError::damaged(block.len() - rest.len())),
-        }
+        fans.port.finish()
     }
 }

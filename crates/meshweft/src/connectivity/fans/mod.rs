@@ -5,7 +5,8 @@
 //! gap; from its end faces go on, each with a *new* vertex, until one closes the gap: this is one symbol,
 //! and nearly all that is written. Otherwise the gap meets the front: a *turn* says where, by steps along the front
 //! or by the number of the vertex. Faces that follow no others begin fans of their own, so any set of
-//! triangles can be written, whatever its edges and directions.
+//! triangles can be written, whatever its edges and directions. Only those that name a vertex twice come after all others,
+//! each as a difference to the one before (`flat_faces`).
 //!
 //! `traversal` is what both sides do; `encoder` says what comes, `decoder` is told; `known_faces` has the paths;
 //! `model` says how likely each symbol is.
@@ -15,6 +16,7 @@ mod blocks;
 mod decoder;
 mod encoder;
 mod fan_model;
+mod flat_faces;
 mod known_faces;
 mod mixed_model;
 mod model;

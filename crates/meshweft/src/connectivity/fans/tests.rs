@@ -54,6 +54,21 @@ fn large_fans_and_books_take_no_longer_a_face() {
 }
 
 #[test]
+fn faces_that_name_a_vertex_twice_take_a_third_of_their_numbers() {
+    // A strip, and between two of its faces one without area, the vertex that is there twice at any corner.
+    let faces = (0..10_000_u32).flat_map(|i| {
+        let (mut face, mut flat) = ([i, i + 1, i + 2], [i, i, i + 1 + i % 2]);
+        face.rotate_left(i as usize % 3);
+        flat.rotate_left(i as usize % 3);
+        [face, flat]
+    });
+    let faces: Vec<_> = faces.collect();
+    let bytes = check(&faces, 10_002, 0).unwrap();
+    // Three numbers of two bytes each.
+    assert!(bytes.len() < 20_000, "{} bytes", bytes.len());
+}
+
+#[test]
 fn damaged_bytes_give_an_error_or_faces_that_are_there() {
     let mut random = SplitMix64(2);
     for _ in 0..1000 {
