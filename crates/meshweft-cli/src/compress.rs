@@ -56,7 +56,7 @@ pub(crate) struct Compress {
     )]
     position_step: Option<f64>,
     /// Where each mesh begins: min-buffer (each vertex is sent once to the smallest buffer), min-bits, or a
-    /// number of a vertex; 0 gives a decompressed file the same bytes again
+    /// number of a vertex; 0 gives what decompress --order stored wrote the same bytes again
     #[arg(
         long,
         value_name = "ROOT",

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use meshweft::files::{self, NewMesh};
-use meshweft::operations;
+use meshweft::operations::{self, DecodedOrder, DecompressOptions};
 use serde_json::json;
 
 use crate::run::arguments::Size;
@@ -22,6 +22,14 @@ pub(crate) struct Decompress {
     /// Where to write: a .glb, .gltf, .obj, .ply, .off or .stl file; the last three hold one mesh
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    /// The order of faces and vertices
+    #[arg(
+        long,
+        value_name = "ORDER",
+        default_value = "window",
+        display_order = 1
+    )]
+    order: Order,
     /// Replace the output
     #[arg(long, display_order = 99)]
     force: bool,
@@ -31,11 +39,34 @@ pub(crate) struct Decompress {
     report: Report,
 }
 
+/// An order as it is given.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Order {
+    /// Good to draw for small caches and batches of a card; vertices in the order of their first use
+    Window,
+    /// As it is stored: compressed again with --root 0, the same bytes
+    Stored,
+}
+
+impl Decompress {
+    /// The flags for the library.
+    fn options(&self) -> DecompressOptions {
+        let mut options = DecompressOptions::default();
+        options.limits = self.size.limits();
+        options.order = match self.order {
+            Order::Window => DecodedOrder::Window,
+            Order::Stored => DecodedOrder::Stored,
+        };
+        options
+    }
+}
+
 /// Decompresses a file.
 pub(crate) fn run(arguments: &Decompress) -> Result<()> {
     let start = Instant::now();
     let name = || arguments.input.display().to_string();
-    let limits = arguments.size.limits();
+    let options = arguments.options();
+    let limits = options.limits;
 
     // What is read, not more than is allowed.
     let mut bytes = Vec::new();
@@ -49,7 +80,7 @@ pub(crate) fn run(arguments: &Decompress) -> Result<()> {
             limits.file_bytes
         );
     }
-    let meshes = operations::decompress(&bytes, limits).with_context(name)?;
+    let meshes = operations::decompress(&bytes, &options).with_context(name)?;
 
     // What is written.
     let new = meshes.iter();

@@ -6,12 +6,14 @@
 mod data;
 
 use meshweft::attribute::{Attribute, Semantic};
+use meshweft::cache;
 use meshweft::connectivity::FirstVertex;
 use meshweft::files::{Document, Format, NewMesh, NewVertices, ReadOptions};
 use meshweft::operations::{
-    CompressError, CompressOptions, PositionPrecision, compress, decompress,
+    CompressError, CompressOptions, DecodedOrder, DecompressOptions, PositionPrecision, compress,
+    decompress,
 };
-use meshweft::{Limits, Mesh};
+use meshweft::{CacheModel, Limits, Mesh};
 
 /// What leaves out whatever cannot be compressed.
 fn leaving_out() -> CompressOptions {
@@ -64,7 +66,7 @@ fn every_file_at_hand_comes_back_from_either_precision() {
                 compressed => compressed.unwrap(),
             };
             assert_eq!(report.bytes_after, bytes.len() as u64);
-            let meshes = decompress(&bytes, Limits::default()).unwrap();
+            let meshes = decompress(&bytes, &DecompressOptions::default()).unwrap();
             assert_eq!(meshes.len(), document.meshes().len());
             for (number, (name, mesh)) in meshes.iter().enumerate() {
                 let entry = &document.meshes()[number];
@@ -86,6 +88,42 @@ fn every_file_at_hand_comes_back_from_either_precision() {
         }
     }
     assert!(done > 10, "{done} files");
+}
+
+#[test]
+fn what_comes_back_is_good_to_draw() {
+    let Some(folder) = data::folder() else { return };
+    for name in ["bunny_clean.obj.gz", "horse.obj.gz", "fandisk.off.gz"] {
+        let path = folder.join("meshes").join(name);
+        let document = Document::open(&path, ReadOptions::default()).unwrap();
+        let (bytes, _) = compress(&document, &leaving_out()).unwrap();
+        let mut options = DecompressOptions::default();
+        options.order = DecodedOrder::Stored;
+        let stored = decompress(&bytes, &options).unwrap().remove(0).1;
+        options.order = DecodedOrder::Window;
+        let drawn = decompress(&bytes, &options).unwrap().remove(0).1;
+        let [before, after] = [&stored, &drawn].map(|mesh| cache::acmr(mesh, CacheModel::fifo(16)));
+        assert!(before > 0.9 && after <= 0.75, "{name}: {before} {after}");
+
+        // The same triangles, and vertices in the order of their first use.
+        let of = |mesh: &Mesh| corners(mesh.positions(), mesh.faces());
+        assert!(of(&stored) == of(&drawn), "{name}");
+        let mut next = 0;
+        for &vertex in drawn.faces().as_flattened() {
+            assert!(vertex <= next, "{name}: {vertex} after {next}");
+            next = next.max(vertex + 1);
+        }
+
+        // What is stored gives the same bytes again.
+        let again = |mesh: &Mesh| {
+            let new = [NewMesh::plain("mesh", mesh.positions(), mesh.faces())];
+            let document = Document::create(Format::Glb, "made".as_ref(), &new).unwrap();
+            compress(&document, &leaving_out()).unwrap().1.meshes[0].bytes
+        };
+        let size = bytes.len() as f64;
+        assert!(((again(&stored) as f64) - size).abs() < 100.0);
+        assert!(((again(&drawn) as f64) / size - 1.0).abs() < 0.05);
+    }
 }
 
 /// A document of meshes by name, a square each.
@@ -129,7 +167,7 @@ fn polygons_are_triangles_on_request() {
     let error = compress(&document, &CompressOptions::default()).unwrap_err();
     assert!(error.to_string().contains("polygons"), "{error}");
     let (bytes, _) = compress(&document, &leaving_out()).unwrap();
-    let meshes = decompress(&bytes, Limits::default()).unwrap();
+    let meshes = decompress(&bytes, &DecompressOptions::default()).unwrap();
     assert_eq!(meshes[0].1.face_count(), 2);
 }
 
@@ -143,7 +181,7 @@ fn meshes_that_meet_still_meet_on_their_lattice() {
     for positions in [PositionPrecision::Bits(5), PositionPrecision::Step(0.125)] {
         options.positions = positions;
         let (bytes, report) = compress(&document, &options).unwrap();
-        let meshes = decompress(&bytes, Limits::default()).unwrap();
+        let meshes = decompress(&bytes, &DecompressOptions::default()).unwrap();
         let has = |mesh: &Mesh| {
             let mut points: Vec<_> = mesh
                 .positions()
@@ -172,9 +210,9 @@ fn limits_hold_for_all_meshes_together() {
     );
     let (bytes, report) = compress(&document, &CompressOptions::default()).unwrap();
     assert!(report.to_json().contains("\"connectivity_bits_per_face\""));
-    let mut limits = Limits::default();
-    limits.file_bytes = 12 * 6;
-    decompress(&bytes, limits).unwrap_err();
-    limits.file_bytes = 12 * 12;
-    decompress(&bytes, limits).unwrap();
+    let mut options = DecompressOptions::default();
+    options.limits.file_bytes = 12 * 6;
+    decompress(&bytes, &options).unwrap_err();
+    options.limits.file_bytes = 12 * 12;
+    decompress(&bytes, &options).unwrap();
 }

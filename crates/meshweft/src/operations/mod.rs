@@ -3,7 +3,7 @@
 //!
 //! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
 //! document and keeps every other byte, `simplify` takes faces away from it, `inspect` counts it as it is, and
-//! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes; their reports are values that know their JSON.
+//! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads; their reports are values that know their JSON.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
 //! along a history such as [`collapse_history`] makes.
 //!
@@ -43,8 +43,8 @@ mod vertex_groups;
 pub use compare::{CompareReport, ComparedFile, compare};
 #[cfg(feature = "files")]
 pub use compress::{
-    CompressError, CompressOptions, CompressReport, CompressedMesh, PositionPrecision, Tier,
-    compress, decompress,
+    CompressError, CompressOptions, CompressReport, CompressedMesh, DecodedOrder,
+    DecompressOptions, PositionPrecision, Tier, compress, decompress,
 };
 pub use counts::{Counts, USUAL_CACHES};
 pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};

@@ -1,12 +1,12 @@
-//! A document as an archive of compressed meshes.
+//! A document as an archive of compressed meshes, and back.
 
+mod decompress;
 mod options;
 mod report;
 
 use std::collections::BTreeMap;
 
 use crate::attribute::{AttributeInfo, ComponentType, Semantic};
-use crate::bits::DecodeError;
 use crate::compression::{CodeOptions, MeshArchive, MeshCode, PositionCoding};
 use crate::connectivity::MinimumTimeRendering;
 use crate::error::MeshError;
@@ -17,6 +17,7 @@ use crate::limits::Limits;
 use crate::mesh::Mesh;
 
 pub use crate::compression::Tier;
+pub use decompress::{DecodedOrder, DecompressOptions, decompress};
 pub use options::{CompressError, CompressOptions, PositionPrecision};
 pub use report::{CompressReport, CompressedMesh};
 
@@ -101,33 +102,6 @@ pub fn compress(
         notes: document.notes().to_vec(),
     };
     Ok((bytes, report))
-}
-
-/// The meshes of an archive with their names.
-///
-/// # Errors
-/// The bytes are not an archive, are damaged or above the limits, of which `file_bytes` is for all meshes together, as
-/// they are in memory.
-///
-/// # Complexity
-/// Time and space O(vertices + faces).
-pub fn decompress(bytes: &[u8], limits: Limits) -> Result<Vec<(String, Mesh)>, DecodeError> {
-    let archive = MeshArchive::from_bytes(bytes)?;
-    let mut left = limits.file_bytes;
-    let each = (0..archive.len()).map(|number| {
-        // A position takes 12 bytes, and so does a face.
-        let most = usize::try_from(left / 12).unwrap_or(usize::MAX);
-        let limits = Limits {
-            vertices: limits.vertices.min(most),
-            faces: limits.faces.min(most),
-            ..limits
-        };
-        let mesh = archive.decode(number, limits)?;
-        let count = mesh.vertex_count() as u64 + mesh.face_count() as u64;
-        left = left.saturating_sub(12 * count);
-        Ok((archive.name(number).to_owned(), mesh))
-    });
-    each.collect()
 }
 
 /// Whether a number is two to the power of a whole number.

@@ -1,0 +1,94 @@
+//! An archive as meshes, in an order to be drawn.
+
+use crate::bits::DecodeError;
+use crate::compression::MeshArchive;
+use crate::connectivity::{WindowOrder, WindowSize};
+use crate::faces::Faces;
+use crate::first_use::FirstUse;
+use crate::index::index32;
+use crate::limits::Limits;
+use crate::mesh::Mesh;
+use crate::order::InBatches;
+use crate::permutation::{Permutation, VertexOrder};
+
+/// How an archive is decompressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub struct DecompressOptions {
+    /// The most that is decoded; `file_bytes` is for all meshes together, as they are in memory.
+    pub limits: Limits,
+    /// The order of faces and vertices.
+    pub order: DecodedOrder,
+}
+
+/// In which order faces and vertices are given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum DecodedOrder {
+    /// Good to draw for small caches and for batches of a card: the stored order, drawn
+    /// [in windows](crate::connectivity::WindowOrder) and [in batches](crate::order::InBatches); vertices in the order of
+    /// their first use.
+    #[default]
+    Window,
+    /// As they are stored. Compressed again from vertex 0, they give the same bytes.
+    Stored,
+}
+
+/// The meshes of an archive with their names.
+///
+/// # Errors
+/// The bytes are not an archive, are damaged or above the limits.
+///
+/// # Complexity
+/// Time and space O(vertices + faces).
+pub fn decompress(
+    bytes: &[u8],
+    options: &DecompressOptions,
+) -> Result<Vec<(String, Mesh)>, DecodeError> {
+    let archive = MeshArchive::from_bytes(bytes)?;
+    let limits = options.limits;
+    let mut left = limits.file_bytes;
+    let each = (0..archive.len()).map(|number| {
+        // A position takes 12 bytes, and so does a face.
+        let most = usize::try_from(left / 12).unwrap_or(usize::MAX);
+        let limits = Limits {
+            vertices: limits.vertices.min(most),
+            faces: limits.faces.min(most),
+            ..limits
+        };
+        let mesh = archive.decode(number, limits)?;
+        let count = mesh.vertex_count() as u64 + mesh.face_count() as u64;
+        left = left.saturating_sub(12 * count);
+
+        let mesh = match options.order {
+            DecodedOrder::Window => in_windows(&mesh),
+            DecodedOrder::Stored => mesh,
+        };
+        Ok((archive.name(number).to_owned(), mesh))
+    });
+    each.collect()
+}
+
+/// A mesh in an order to be drawn, whose faces come in the order of their least vertices.
+fn in_windows(mesh: &Mesh) -> Mesh {
+    let windows = WindowOrder::of_faces(mesh, WindowSize::default());
+    let order = InBatches::BESIDE_OTHERS.follow(mesh, &windows);
+    let drawn = mesh.with_face_order(&order);
+    drawn.with_vertex_order(&by_first_use(Faces::from(&drawn)))
+}
+
+/// Not in blocks as in a file that is optimized: those that a sweep meets together have near numbers already.
+fn by_first_use(faces: Faces<'_>) -> VertexOrder {
+    let mut first_use = FirstUse::new(faces.vertex_count(), 3 * faces.len());
+    for &vertex in faces.as_slice().as_flattened() {
+        first_use.number(vertex);
+    }
+    let mut new_to_old = first_use.finish();
+    let mut is_used = vec![false; faces.vertex_count()];
+    for &vertex in &new_to_old {
+        is_used[vertex as usize] = true;
+    }
+    let all = 0..index32(faces.vertex_count());
+    new_to_old.extend(all.filter(|&vertex| !is_used[vertex as usize]));
+    Permutation::from_algorithm(new_to_old).into()
+}
