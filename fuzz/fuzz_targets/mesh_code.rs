@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::Limits;
+use meshweft::{Limits, Mesh};
 use meshweft::compression::{MeshArchive, MeshCode, MeshDecoder};
 
 fuzz_target!(|data: &[u8]| {
@@ -38,11 +38,14 @@ fuzz_target!(|data: &[u8]| {
         Ok(mesh) => {
             assert!(error.is_none() && left == 0);
             decoder.finish().expect("as when it came at once");
+            let order = decoder.take_source_order().expect("it is complete");
+            let pieces = Mesh::new(positions, faces).expect("every vertex is there");
+            let pieces = order.restore(pieces);
             let bits = |positions: &[[f32; 3]]| -> Vec<_> {
                 positions.iter().map(|it| it.map(f32::to_bits)).collect()
             };
-            assert_eq!(bits(&positions), bits(mesh.positions()));
-            assert_eq!(faces, mesh.faces());
+            assert_eq!(bits(pieces.positions()), bits(mesh.positions()));
+            assert_eq!(pieces.faces(), mesh.faces());
         }
         Err(whole) => match error {
             Some(error) => assert_eq!(error, whole),

@@ -26,7 +26,7 @@ impl Codec for Compressed {
         let options = CodeOptions {
             tier: self.0,
             positions: PositionCoding::OnLattice(lattice),
-            first_vertex: 0,
+            ..CodeOptions::default()
         };
         let code = MeshCode::new(&mesh, &options).map_err(|error| text(&error))?;
         #[expect(clippy::cast_possible_truncation, reason = "a number of bytes")]

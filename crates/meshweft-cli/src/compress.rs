@@ -8,7 +8,9 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use meshweft::connectivity::FirstVertex;
 use meshweft::files::{Document, ReadOptions};
-use meshweft::operations::{self, CompressOptions, CompressReport, PositionPrecision, Tier};
+use meshweft::operations::{
+    self, CompressOptions, CompressReport, KeepOrder, PositionPrecision, Tier,
+};
 
 use crate::run::arguments::Size;
 use crate::run::output::{self, Report};
@@ -64,6 +66,10 @@ pub(crate) struct Compress {
         display_order = 2
     )]
     root: Root,
+    /// Store the order of the file too, for decompress to give back: faces (and which corner is first), vertices, or
+    /// both
+    #[arg(long, value_name = "WHAT", display_order = 2)]
+    keep_order: Option<Kept>,
     /// Leave out normals, texture coordinates and whatever else is stored with vertices, corners and faces
     #[arg(long, display_order = 2)]
     drop_attributes: bool,
@@ -86,6 +92,14 @@ enum TierName {
     Fast,
     /// Fewer bytes: how vertices lie says what faces are likely
     Default,
+}
+
+/// What of the order is stored, as it is given.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Kept {
+    Faces,
+    Vertices,
+    Both,
 }
 
 /// Bits such as `14`, or `lossless`.
@@ -135,6 +149,12 @@ impl Compress {
             (None, None) => PositionPrecision::Lossless,
         };
         options.first_vertex = self.root.0;
+        options.keep_order = match self.keep_order {
+            None => KeepOrder::Nothing,
+            Some(Kept::Faces) => KeepOrder::Faces,
+            Some(Kept::Vertices) => KeepOrder::Vertices,
+            Some(Kept::Both) => KeepOrder::Both,
+        };
         options.drop_attributes = self.drop_attributes;
         options.triangles = self.triangles;
         options
@@ -181,8 +201,12 @@ pub(crate) fn run(arguments: &Compress) -> Result<()> {
 /// The report for people: a line a mesh, and the sum.
 fn text(report: &CompressReport) -> String {
     let mesh = |mesh: &operations::CompressedMesh| {
+        let order = match report.options.keep_order {
+            KeepOrder::Nothing => String::new(),
+            _ => format!(", {:.0} bytes for the order", mesh.sizes.order),
+        };
         format!(
-            "{}: {} vertices, {} faces: {} bytes ({:.2} bits a face and {:.2} a vertex); each vertex sent once to a \
+            "{}: {} vertices, {} faces: {} bytes ({:.2} bits a face and {:.2} a vertex{order}); each vertex sent once to a \
              buffer of {}\n",
             mesh.name,
             mesh.vertices,

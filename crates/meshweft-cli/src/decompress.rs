@@ -26,7 +26,7 @@ pub(crate) struct Decompress {
     #[arg(
         long,
         value_name = "ORDER",
-        default_value = "window",
+        default_value = "source",
         display_order = 1
     )]
     order: Order,
@@ -42,6 +42,8 @@ pub(crate) struct Decompress {
 /// An order as it is given.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Order {
+    /// As in the source, if compress was given --keep-order; what was not kept, as by window
+    Source,
     /// Good to draw for small caches and batches of a card; vertices in the order of their first use
     Window,
     /// As it is stored: compressed again with --root 0, the same bytes
@@ -54,6 +56,7 @@ impl Decompress {
         let mut options = DecompressOptions::default();
         options.limits = self.size.limits();
         options.order = match self.order {
+            Order::Source => DecodedOrder::Source,
             Order::Window => DecodedOrder::Window,
             Order::Stored => DecodedOrder::Stored,
         };

@@ -10,8 +10,8 @@ use meshweft::cache;
 use meshweft::connectivity::FirstVertex;
 use meshweft::files::{Document, Format, NewMesh, NewVertices, ReadOptions};
 use meshweft::operations::{
-    CompressError, CompressOptions, DecodedOrder, DecompressOptions, PositionPrecision, compress,
-    decompress,
+    CompressError, CompressOptions, DecodedOrder, DecompressOptions, KeepOrder, PositionPrecision,
+    compress, decompress,
 };
 use meshweft::{CacheModel, Limits, Mesh};
 
@@ -199,6 +199,35 @@ fn meshes_that_meet_still_meet_on_their_lattice() {
         options.positions = positions;
         let error = compress(&document, &options).unwrap_err();
         assert!(matches!(error, CompressError::Precision(_)), "{error}");
+    }
+}
+
+#[test]
+fn index_buffers_are_the_same_where_the_order_is_kept() {
+    let Some(folder) = data::folder() else { return };
+    for name in ["fandisk.off.gz", "teapot_utah.obj.gz", "eight.off.gz"] {
+        let path = folder.join("meshes").join(name);
+        let document = Document::open(&path, ReadOptions::default()).unwrap();
+        let mut options = leaving_out();
+        options.first_vertex = FirstVertex::MinBuffer;
+        options.keep_order = KeepOrder::Both;
+        let (bytes, report) = compress(&document, &options).unwrap();
+        assert!(report.meshes[0].sizes.order > 0.0);
+        let back = decompress(&bytes, &DecompressOptions::default()).unwrap();
+        let mesh = &back[0].1;
+        assert_eq!(mesh.faces(), document.meshes()[0].mesh.faces(), "{name}");
+        assert_eq!(mesh.positions(), document.positions(0).unwrap().unwrap());
+
+        // Without the vertices, the faces are in their order, vertices by their first use.
+        options.keep_order = KeepOrder::Faces;
+        let (bytes, _) = compress(&document, &options).unwrap();
+        let back = decompress(&bytes, &DecompressOptions::default()).unwrap();
+        let positions = |mesh: &Mesh| -> Vec<_> {
+            let corners = mesh.faces().as_flattened().iter();
+            let position = |&vertex: &u32| mesh.positions()[vertex as usize];
+            corners.map(position).collect()
+        };
+        assert_eq!(positions(&back[0].1), positions(mesh), "{name}");
     }
 }
 

@@ -49,6 +49,48 @@ fn a_mesh_is_compressed_and_comes_back() {
 }
 
 #[test]
+fn the_order_of_the_file_comes_back_on_request() {
+    let folder = Folder::new("compress-order");
+    let written = |source: &str, flags: &[&str], output: &str| {
+        let compress = ["compress", source, "-o", "some.mwz", "--force"];
+        let run = folder.run(&[&compress[..], flags].concat());
+        assert_eq!(run.code(), 0, "{}", run.err());
+        let kept = run.out().contains("bytes for the order");
+        assert_eq!(kept, !flags.is_empty(), "{}", run.out());
+        let arguments = ["decompress", "some.mwz", "-o", output, "--force"];
+        assert_eq!(folder.run(&arguments).code(), 0);
+        folder.read(output)
+    };
+
+    // A file as the program writes it, shuffled, is not in the order that it would get.
+    folder.write("grid.obj", grid_obj());
+    written("grid.obj", &[], "grid.off");
+    let text = String::from_utf8(folder.read("grid.off")).unwrap();
+    let mut lines: Vec<&str> = text.lines().collect();
+    let faces = lines.len() - 800;
+    lines[faces..].reverse();
+    folder.write("source.off", lines.join("\n") + "\n");
+    let source = folder.read("source.off");
+    assert_ne!(written("source.off", &[], "back.off"), source);
+
+    // Both orders: the same file. One of them: some of its lines.
+    let kept = |what| written("source.off", &["--keep-order", what], "back.off");
+    assert_eq!(kept("both"), source);
+    let vertices = kept("vertices");
+    let text = String::from_utf8(vertices).unwrap();
+    assert_eq!(text.lines().take(faces).collect::<Vec<_>>(), lines[..faces]);
+    assert_ne!(text.lines().collect::<Vec<_>>(), lines);
+
+    // Whoever wants to draw it asks for that.
+    let arguments = ["decompress", "some.mwz", "-o", "drawn.off", "--order"];
+    for order in ["window", "stored"] {
+        let run = folder.run(&[&arguments[..], &[order, "--force"]].concat());
+        assert_eq!(run.code(), 0, "{}", run.err());
+        assert_ne!(folder.read("drawn.off"), source);
+    }
+}
+
+#[test]
 fn the_report_has_bytes_and_bits() {
     let folder = Folder::new("compress-json");
     folder.write("grid.obj", grid_obj());

@@ -1,6 +1,7 @@
 //! Several compressed meshes with their names: what a `.mwz` file holds.
 
 use super::mesh_code::MeshCode;
+use super::source_order::SourceOrder;
 use crate::bits::{DecodeError, DecodeErrorKind, crc32, varint};
 use crate::limits::Limits;
 use crate::mesh::Mesh;
@@ -68,7 +69,7 @@ impl MeshArchive {
         &self.meshes[mesh].name
     }
 
-    /// The mesh.
+    /// The mesh, in the order of the source as far as that is stored.
     ///
     /// # Errors
     /// As [`MeshCode::decode`].
@@ -76,8 +77,24 @@ impl MeshArchive {
     /// # Panics
     /// If there is no such mesh.
     pub fn decode(&self, mesh: usize, limits: Limits) -> Result<Mesh, DecodeError> {
+        let (mesh, order) = self.decode_stored(mesh, limits)?;
+        Ok(order.restore(mesh))
+    }
+
+    /// The mesh in the order of the stream, and what of the order of the source is stored.
+    ///
+    /// # Errors
+    /// As [`MeshCode::decode`].
+    ///
+    /// # Panics
+    /// If there is no such mesh.
+    pub fn decode_stored(
+        &self,
+        mesh: usize,
+        limits: Limits,
+    ) -> Result<(Mesh, SourceOrder), DecodeError> {
         let entry = &self.meshes[mesh];
-        MeshCode::decode(&entry.code, limits).map_err(|error| DecodeError {
+        MeshCode::decode_stored(&entry.code, limits).map_err(|error| DecodeError {
             byte: error.byte + entry.byte,
             ..error
         })

@@ -3,6 +3,7 @@
 use super::BLOCK_SIZE;
 use super::options::{CodeError, CodeOptions, PositionCoding, Tier};
 use super::positions::{Coordinate, Exact, OnLattice, Positions};
+use super::source_order;
 use crate::bits::varint;
 use crate::connectivity::{Blocks, MixedModel, TableModel};
 use crate::faces::Faces;
@@ -10,7 +11,7 @@ use crate::geometry::Lattice;
 use crate::mesh::Mesh;
 use crate::permutation::{FaceOrder, VertexOrder};
 
-/// A mesh as bytes, and the orders in which its vertices and faces come back.
+/// A mesh as bytes, and the orders in which its vertices and faces are stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshCode {
     bytes: Vec<u8>,
@@ -26,18 +27,23 @@ pub struct CodeSizes {
     pub connectivity: f64,
     /// The positions.
     pub positions: f64,
+    /// The order of the source: 0 unless it is kept.
+    pub order: f64,
     /// The rest: counts, the beginnings and ends of blocks.
     pub rest: f64,
 }
 
 /// Bits of the second byte.
 pub(super) const IS_LOSSLESS: u8 = 1;
+/// The order of the faces of the source is stored, and that of the vertices.
+pub(super) const KEEPS: [u8; 2] = [2, 4];
 
 impl MeshCode {
     /// Compresses any mesh.
     ///
     /// Every face comes back, turned so that its least vertex is first, whatever its edges and its
-    /// direction; so does every vertex, whether a face has it or not.
+    /// direction; so does every vertex, whether a face has it or not. [`KeepOrder`](super::KeepOrder) says whether they come
+    /// back at their places, and corners too.
     ///
     /// # Errors
     /// The mesh has no positions, or they cannot be rounded as the options say.
@@ -76,10 +82,14 @@ impl MeshCode {
 
         // What is before the blocks.
         let mut bytes = vec![options.tier as u8];
-        bytes.push(match options.positions {
+        let mut flags = match options.positions {
             PositionCoding::Lossless => IS_LOSSLESS,
             PositionCoding::OnLattice(_) => 0,
-        });
+        };
+        for (keeps, flag) in options.keep_order.parts().into_iter().zip(KEEPS) {
+            flags |= if keeps { flag } else { 0 };
+        }
+        bytes.push(flags);
         varint::write(&mut bytes, vertex_count as u64);
         varint::write(&mut bytes, mesh.face_count() as u64);
 
@@ -101,12 +111,18 @@ impl MeshCode {
             }
         };
         bytes.extend(blocks.bytes);
+
+        // What leads back to the order of the source.
+        let (of_faces, of_vertices) = (&blocks.faces, &blocks.vertices);
+        let keep = options.keep_order;
+        let order = source_order::write(&mut bytes, of_faces, of_vertices, keep, BLOCK_SIZE);
         let [connectivity, positions] = blocks.bits.map(|bits| bits / 8.0);
         Ok(Self {
             sizes: CodeSizes {
                 connectivity,
                 positions,
-                rest: bytes.len() as f64 - connectivity - positions,
+                order,
+                rest: bytes.len() as f64 - connectivity - positions - order,
             },
             bytes,
             vertices: blocks.vertices,
@@ -120,13 +136,13 @@ impl MeshCode {
         &self.bytes
     }
 
-    /// The vertices in the order in which they come back.
+    /// The vertices in the order in which they are stored.
     #[must_use]
     pub fn vertices(&self) -> &VertexOrder {
         &self.vertices
     }
 
-    /// The faces in the order in which they come back.
+    /// The faces in the order in which they are stored.
     #[must_use]
     pub fn faces(&self) -> &FaceOrder {
         &self.faces

@@ -1,9 +1,10 @@
 //! Bytes as a mesh.
 
 use super::BLOCK_SIZE;
-use super::mesh_code::{IS_LOSSLESS, MeshCode};
+use super::mesh_code::{IS_LOSSLESS, KEEPS, MeshCode};
 use super::options::Tier;
 use super::positions::{Coordinate, Exact, OnLattice, Positions};
+use super::source_order::{OrderReader, SourceOrder};
 use crate::bits::{DecodeError, DecodeErrorKind, varint};
 use crate::connectivity::{BlockReader, FanModel, MixedModel, TableModel};
 use crate::geometry::Lattice;
@@ -14,7 +15,8 @@ use crate::mesh::Mesh;
 ///
 /// Vertices and faces come block by block, and a face never before its vertices. What was not taken stays; beyond
 /// that, the decoder keeps about 110 bytes for each vertex of the buffer that minimum-time rendering needs, and
-/// the bytes of one block.
+/// the bytes of one block. Where the order of the source is stored, it comes after all faces, and takes five bytes a face
+/// and four a vertex.
 ///
 /// ```
 /// use meshweft::compression::{CodeOptions, MeshCode, MeshDecoder};
@@ -41,6 +43,7 @@ pub struct MeshDecoder {
     /// Bytes before them.
     passed: usize,
     reader: Option<MeshBlocks>,
+    order: OrderReader,
     positions: Vec<[f32; 3]>,
     error: Option<DecodeError>,
 }
@@ -100,6 +103,7 @@ impl MeshDecoder {
             waiting: Vec::new(),
             passed: 0,
             reader: None,
+            order: OrderReader::new([None; 2], BLOCK_SIZE),
             positions: Vec::new(),
             error: None,
         }
@@ -142,14 +146,19 @@ impl MeshDecoder {
     fn read(&mut self, bytes: &[u8]) -> Result<Option<usize>, DecodeError> {
         let Some(reader) = &mut self.reader else {
             let mut rest = bytes;
-            self.reader = read_beginning(&mut rest, self.limits).map_err(|kind| DecodeError {
+            let read = read_beginning(&mut rest, self.limits).map_err(|kind| DecodeError {
                 byte: bytes.len() - rest.len(),
                 kind,
             })?;
-            let is_there = self.reader.is_some();
-            return Ok(is_there.then_some(bytes.len() - rest.len()));
+            return Ok(read.map(|(reader, order)| {
+                (self.reader, self.order) = (Some(reader), order);
+                bytes.len() - rest.len()
+            }));
         };
         let MeshBlocks { reader, frame } = reader;
+        if with_reader!(&*reader, reader => reader.is_complete()) {
+            return self.order.read_piece(bytes);
+        }
         let positions = &mut self.positions;
         let read = with_reader!(reader, reader => {
             let read = reader.read_piece(bytes)?;
@@ -164,7 +173,9 @@ impl MeshDecoder {
     #[must_use]
     pub fn is_complete(&self) -> bool {
         let reader = self.reader.as_ref();
-        reader.is_some_and(|reader| with_reader!(&reader.reader, reader => reader.is_complete()))
+        let is_complete =
+            |reader: &MeshBlocks| with_reader!(&reader.reader, reader => reader.is_complete());
+        reader.is_some_and(is_complete) && self.order.is_complete()
     }
 
     /// How many vertices and faces the mesh has, once that was read.
@@ -189,6 +200,11 @@ impl MeshDecoder {
         }
     }
 
+    /// What of the order of the source is stored, once everything was read. What was taken does not come again.
+    pub fn take_source_order(&mut self) -> Option<SourceOrder> {
+        self.is_complete().then(|| self.order.take())
+    }
+
     /// # Errors
     /// The mesh is not complete.
     pub fn finish(&self) -> Result<(), DecodeError> {
@@ -204,7 +220,7 @@ impl MeshDecoder {
 }
 
 impl MeshCode {
-    /// The mesh, from all its bytes.
+    /// The mesh, from all its bytes, in the order of the source as far as that is stored.
     ///
     /// # Errors
     /// As [`MeshDecoder::push`], or bytes are missing or left over.
@@ -213,6 +229,15 @@ impl MeshCode {
     /// Time and space O(vertices + faces), which the limits bound: a regular mesh takes less than a bit for a
     /// thousand faces.
     pub fn decode(bytes: &[u8], limits: Limits) -> Result<Mesh, DecodeError> {
+        let (mesh, order) = Self::decode_stored(bytes, limits)?;
+        Ok(order.restore(mesh))
+    }
+
+    /// The mesh in the order of the stream, and what of the order of the source is stored.
+    ///
+    /// # Errors
+    /// As [`decode`](Self::decode).
+    pub fn decode_stored(bytes: &[u8], limits: Limits) -> Result<(Mesh, SourceOrder), DecodeError> {
         let mut decoder = MeshDecoder::new(limits);
         let used = decoder.push(bytes)?;
         decoder.finish()?;
@@ -220,7 +245,8 @@ impl MeshCode {
             return Err(DecodeError::damaged(used));
         }
         let (positions, faces) = (decoder.take_positions(), decoder.take_faces());
-        Mesh::new(positions, faces).map_err(|_| DecodeError::damaged(used))
+        let mesh = Mesh::new(positions, faces).map_err(|_| DecodeError::damaged(used))?;
+        Ok((mesh, decoder.take_source_order().unwrap_or_default()))
     }
 }
 
@@ -228,7 +254,7 @@ impl MeshCode {
 fn read_beginning(
     bytes: &mut &[u8],
     limits: Limits,
-) -> Result<Option<MeshBlocks>, DecodeErrorKind> {
+) -> Result<Option<(MeshBlocks, OrderReader)>, DecodeErrorKind> {
     // How it is coded.
     let Some(&[tier, flags]) = bytes.first_chunk() else {
         return Ok(None);
@@ -239,7 +265,7 @@ fn read_beginning(
     };
     let tier = Tier::ALL.get(usize::from(tier));
     let tier = *tier.ok_or(unknown("tier", bytes[0]))?;
-    if flags & !IS_LOSSLESS != 0 {
+    if flags & !(IS_LOSSLESS | KEEPS[0] | KEEPS[1]) != 0 {
         return Err(unknown("kind of stream", flags));
     }
 
@@ -258,6 +284,8 @@ fn read_beginning(
         *count = allowed.ok_or(DecodeErrorKind::AboveLimit { what, said, limit })?;
     }
     let [vertices, faces] = counts;
+    let kept = |flag, count| (flags & flag != 0).then_some(count);
+    let kept = [kept(KEEPS[0], faces), kept(KEEPS[1], vertices)];
 
     // Where positions are.
     let mut frame = Frame::Lossless;
@@ -287,7 +315,8 @@ fn read_beginning(
         (Tier::Default, Frame::OnLattice { .. }) => Reader::OnLattice(reader_of(counts)),
     };
     *bytes = rest;
-    Ok(Some(MeshBlocks { reader, frame }))
+    let reader = MeshBlocks { reader, frame };
+    Ok(Some((reader, OrderReader::new(kept, BLOCK_SIZE))))
 }
 
 fn reader_of<C: Coordinate, M: FanModel>([faces, vertices]: [usize; 2]) -> PositionReader<C, M> {

@@ -6,6 +6,8 @@
 //! [minimum-time rendering](crate::connectivity::MinimumTimeRendering): each vertex is sent once, to a buffer of moderate
 //! size.
 //!
+//! On request the order of the source is stored too ([`KeepOrder`]), so that faces and vertices are given back at their places.
+//!
 //! [`MeshArchive`] has several with their names: what a `.mwz` file holds.
 //!
 //! Whatever a mesh is, it comes back: edges with many faces, faces turned over, faces that are there twice or have no
@@ -18,6 +20,7 @@ mod mesh_decoder;
 mod options;
 mod positions;
 mod ring;
+mod source_order;
 #[cfg(test)]
 mod tests;
 
@@ -26,7 +29,8 @@ use crate::connectivity::BlockSize;
 pub use archive::MeshArchive;
 pub use mesh_code::{CodeSizes, MeshCode};
 pub use mesh_decoder::MeshDecoder;
-pub use options::{CodeError, CodeOptions, PositionCoding, Tier};
+pub use options::{CodeError, CodeOptions, KeepOrder, PositionCoding, Tier};
+pub use source_order::SourceOrder;
 
 /// How much is decoded at once.
 const BLOCK_SIZE: BlockSize = BlockSize(4096);

@@ -31,6 +31,33 @@ pub enum PositionCoding {
     OnLattice(Lattice),
 }
 
+/// What of the order of the source is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum KeepOrder {
+    /// Nothing: faces and vertices come back in the order of the stream.
+    #[default]
+    Nothing,
+    /// The order of the faces, and which corner of each is first.
+    Faces,
+    /// The order of the vertices.
+    Vertices,
+    /// Both: the same index buffer comes back.
+    Both,
+}
+
+impl KeepOrder {
+    /// Whether the order of the faces is kept, and that of the vertices.
+    pub(super) fn parts(self) -> [bool; 2] {
+        match self {
+            Self::Nothing => [false, false],
+            Self::Faces => [true, false],
+            Self::Vertices => [false, true],
+            Self::Both => [true, true],
+        }
+    }
+}
+
 /// How a mesh is compressed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CodeOptions {
@@ -41,6 +68,8 @@ pub struct CodeOptions {
     /// The vertex with which the traversal begins; [`FirstVertex`](crate::connectivity::FirstVertex) chooses one that
     /// needs a small buffer. A mesh that was decoded gives the same stream again from vertex 0.
     pub first_vertex: u32,
+    /// What of the order of the source is stored: up to some bytes a face and a vertex.
+    pub keep_order: KeepOrder,
 }
 
 /// Why a mesh cannot be compressed.

@@ -1,6 +1,6 @@
 //! Laws for any mesh, and hostile bytes.
 
-use super::{CodeError, CodeOptions, MeshCode, MeshDecoder, PositionCoding};
+use super::{CodeError, CodeOptions, KeepOrder, MeshCode, MeshDecoder, PositionCoding};
 use crate::bits::DecodeErrorKind;
 use crate::connectivity::MinimumTimeRendering;
 use crate::connectivity::soups::soup;
@@ -99,12 +99,104 @@ fn any_mesh_comes_back_and_has_the_same_code_then() {
     }
 }
 
+const KEPT: [KeepOrder; 4] = [
+    KeepOrder::Nothing,
+    KeepOrder::Faces,
+    KeepOrder::Vertices,
+    KeepOrder::Both,
+];
+
+#[test]
+fn the_order_of_the_source_comes_back_as_far_as_it_is_kept() {
+    let mut random = SplitMix64(6);
+    for case in 0..1500 {
+        // Once more than a block.
+        let mesh = if case == 0 {
+            hills(80)
+        } else {
+            any_mesh(&mut random)
+        };
+        let plain = MeshCode::new(&mesh, &CodeOptions::default()).unwrap();
+        for keep_order in KEPT {
+            let options = CodeOptions {
+                keep_order,
+                ..Default::default()
+            };
+            let code = MeshCode::new(&mesh, &options).unwrap();
+            let [keeps_faces, keeps_vertices] = keep_order.parts();
+            let mut expected = mesh.clone();
+            if !keeps_faces {
+                expected = expected.with_face_order(code.faces());
+            }
+            if !keeps_vertices {
+                expected = expected.with_vertex_order(code.vertices());
+            }
+            let decoded = MeshCode::decode(code.bytes(), Limits::default()).unwrap();
+            assert_eq!(bits(&decoded), bits(&expected), "{keep_order:?}");
+
+            // The order follows what is there without it.
+            let begin = plain.bytes().len();
+            assert_eq!(code.bytes()[2..begin], plain.bytes()[2..]);
+            let order = (code.bytes().len() - begin) as f64;
+            assert_eq!(code.sizes().order.to_bits(), order.to_bits());
+            let (stored, _) = MeshCode::decode_stored(code.bytes(), Limits::default()).unwrap();
+            let without = MeshCode::decode(plain.bytes(), Limits::default()).unwrap();
+            assert_eq!(bits(&stored), bits(&without));
+        }
+    }
+}
+
+#[test]
+fn an_order_that_names_a_place_twice_is_an_error() {
+    let mesh = hills(4);
+    let code = |keep_order, mesh: &Mesh| {
+        let options = CodeOptions {
+            keep_order,
+            ..Default::default()
+        };
+        MeshCode::new(mesh, &options).unwrap().bytes().to_vec()
+    };
+    let whole = code(KeepOrder::Both, &mesh);
+    let begin = code(KeepOrder::Nothing, &mesh).len();
+    let mut random = SplitMix64(7);
+    for _ in 0..20_000 {
+        let mut damaged = whole.clone();
+        let place = begin + random.below(whole.len() - begin);
+        damaged[place] ^= 1 << random.below(8);
+        // What is read to the end by luck is an order.
+        if let Ok(decoded) = MeshCode::decode(&damaged, Limits::default()) {
+            assert_eq!(decoded.face_count(), mesh.face_count());
+            let [mut found, mut expected] = [decoded, mesh.clone()].map(|it| bits(&it).0);
+            found.sort_unstable();
+            expected.sort_unstable();
+            assert_eq!(found, expected);
+        }
+    }
+}
+
+#[test]
+fn an_order_that_is_near_the_stored_one_takes_few_bytes() {
+    let mesh = hills(60);
+    let stored = |code: &MeshCode| MeshCode::decode(code.bytes(), Limits::default()).unwrap();
+    let mesh = stored(&MeshCode::new(&mesh, &CodeOptions::default()).unwrap());
+    let options = CodeOptions {
+        keep_order: KeepOrder::Both,
+        ..Default::default()
+    };
+    let size = MeshCode::new(&mesh, &options).unwrap().sizes().order;
+    assert!(size < 100.0, "{size}");
+}
+
 #[test]
 fn bytes_may_arrive_in_any_pieces() {
     let mut random = SplitMix64(4);
-    for _ in 0..300 {
+    for case in 0..300 {
         let mesh = any_mesh(&mut random);
-        let code = MeshCode::new(&mesh, &CodeOptions::default()).unwrap();
+        let options = CodeOptions {
+            keep_order: KEPT[case % 4],
+            ..Default::default()
+        };
+        let code = MeshCode::new(&mesh, &options).unwrap();
         let whole = MeshCode::decode(code.bytes(), Limits::default()).unwrap();
         let mut bytes = code.bytes().to_vec();
         bytes.extend([9, 9, 9]);
@@ -126,7 +218,9 @@ fn bytes_may_arrive_in_any_pieces() {
             decoder.counts(),
             Some([mesh.vertex_count(), mesh.face_count()])
         );
-        assert_eq!(bits(&Mesh::new(positions, faces).unwrap()), bits(&whole));
+        let order = decoder.take_source_order().unwrap();
+        let mesh = order.restore(Mesh::new(positions, faces).unwrap());
+        assert_eq!(bits(&mesh), bits(&whole));
     }
 }
 
@@ -219,11 +313,12 @@ fn limits_hold_before_anything_is_decoded() {
 #[test]
 fn damaged_bytes_give_an_error_or_a_mesh() {
     let mut random = SplitMix64(5);
-    for _ in 0..500 {
+    for case in 0..500 {
         let mesh = any_mesh(&mut random);
         let positions = ways(&mesh)[random.below(2)];
         let options = CodeOptions {
             positions,
+            keep_order: KEPT[case % 4],
             ..Default::default()
         };
         let Ok(code) = MeshCode::new(&mesh, &options) else {

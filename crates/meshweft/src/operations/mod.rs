@@ -44,7 +44,7 @@ pub use compare::{CompareReport, ComparedFile, compare};
 #[cfg(feature = "files")]
 pub use compress::{
     CompressError, CompressOptions, CompressReport, CompressedMesh, DecodedOrder,
-    DecompressOptions, PositionPrecision, Tier, compress, decompress,
+    DecompressOptions, KeepOrder, PositionPrecision, Tier, compress, decompress,
 };
 pub use counts::{Counts, USUAL_CACHES};
 pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};

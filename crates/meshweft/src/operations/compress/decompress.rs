@@ -1,7 +1,7 @@
 //! An archive as meshes, in an order to be drawn.
 
 use crate::bits::DecodeError;
-use crate::compression::MeshArchive;
+use crate::compression::{MeshArchive, SourceOrder};
 use crate::connectivity::{WindowOrder, WindowSize};
 use crate::faces::Faces;
 use crate::first_use::FirstUse;
@@ -25,10 +25,12 @@ pub struct DecompressOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum DecodedOrder {
+    /// As in the source, if that [is stored](crate::compression::KeepOrder); what is not, as by [`Window`](Self::Window).
+    #[default]
+    Source,
     /// Good to draw for small caches and for batches of a card: the stored order, drawn
     /// [in windows](crate::connectivity::WindowOrder) and [in batches](crate::order::InBatches); vertices in the order of
     /// their first use.
-    #[default]
     Window,
     /// As they are stored. Compressed again from vertex 0, they give the same bytes.
     Stored,
@@ -56,12 +58,13 @@ pub fn decompress(
             faces: limits.faces.min(most),
             ..limits
         };
-        let mesh = archive.decode(number, limits)?;
+        let (mesh, order) = archive.decode_stored(number, limits)?;
         let count = mesh.vertex_count() as u64 + mesh.face_count() as u64;
         left = left.saturating_sub(12 * count);
 
         let mesh = match options.order {
-            DecodedOrder::Window => in_windows(&mesh),
+            DecodedOrder::Source => in_order(&mesh, &order),
+            DecodedOrder::Window => in_order(&mesh, &SourceOrder::default()),
             DecodedOrder::Stored => mesh,
         };
         Ok((archive.name(number).to_owned(), mesh))
@@ -69,12 +72,18 @@ pub fn decompress(
     each.collect()
 }
 
-/// A mesh in an order to be drawn, whose faces come in the order of their least vertices.
-fn in_windows(mesh: &Mesh) -> Mesh {
-    let windows = WindowOrder::of_faces(mesh, WindowSize::default());
-    let order = InBatches::BESIDE_OTHERS.follow(mesh, &windows);
-    let drawn = mesh.with_face_order(&order);
-    drawn.with_vertex_order(&by_first_use(Faces::from(&drawn)))
+/// A mesh, whose faces come in the order of their least vertices, in its order as far as that is known; else in an order
+/// to be drawn.
+fn in_order(mesh: &Mesh, order: &SourceOrder) -> Mesh {
+    let windows = || {
+        let windows = WindowOrder::of_faces(mesh, WindowSize::default());
+        InBatches::BESIDE_OTHERS.follow(mesh, &windows)
+    };
+    let faces = order.faces().cloned().unwrap_or_else(windows);
+    let drawn = mesh.with_face_order(&faces);
+    let first_use = || by_first_use(Faces::from(&drawn));
+    let vertices = order.vertices().cloned().unwrap_or_else(first_use);
+    drawn.with_vertex_order(&vertices)
 }
 
 /// Not in blocks as in a file that is optimized: those that a sweep meets together have near numbers already.

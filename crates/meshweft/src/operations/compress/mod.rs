@@ -4,6 +4,7 @@ mod decompress;
 mod options;
 mod report;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::attribute::{AttributeInfo, ComponentType, Semantic};
@@ -15,8 +16,9 @@ use crate::geometry::Lattice;
 use crate::index::index32;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
+use crate::permutation::{FaceOrder, VertexOrder};
 
-pub use crate::compression::Tier;
+pub use crate::compression::{KeepOrder, Tier};
 pub use decompress::{DecodedOrder, DecompressOptions, decompress};
 pub use options::{CompressError, CompressOptions, PositionPrecision};
 pub use report::{CompressReport, CompressedMesh};
@@ -67,15 +69,26 @@ pub fn compress(
             tier: options.tier,
             positions: coding,
             first_vertex: first_vertex.map_err(CompressError::FirstVertex)?,
+            keep_order: options.keep_order,
         };
         let code = MeshCode::new(mesh, &options).map_err(|error| CompressError::Mesh {
             file: file(),
             mesh: name.clone(),
             error,
         })?;
-        let decoded = MeshCode::decode(code.bytes(), Limits::default()).ok();
-        let decoded = decoded.filter(|decoded| is_same(mesh, decoded, &code, lattice));
-        let decoded = decoded.ok_or_else(|| CompressError::NotVerified {
+        let decoded = MeshCode::decode_stored(code.bytes(), Limits::default()).ok();
+        let decoded = decoded.filter(|(mesh_as_stored, order)| {
+            let (faces, vertices) = (code.faces(), code.vertices());
+            let is_back = || {
+                let faces = order.faces().is_none().then_some(faces);
+                let vertices = order.vertices().is_none().then_some(vertices);
+                let restored = order.restore(mesh_as_stored.clone());
+                is_same(mesh, &restored, faces, vertices, lattice)
+            };
+            is_same(mesh, mesh_as_stored, Some(faces), Some(vertices), lattice)
+                && (options.keep_order == KeepOrder::Nothing || is_back())
+        });
+        let (decoded, _) = decoded.ok_or_else(|| CompressError::NotVerified {
             file: file(),
             mesh: name.clone(),
         })?;
@@ -226,11 +239,21 @@ fn only(positions: &[[f32; 3]], faces: &[[u32; 3]], own: &[bool]) -> Result<Mesh
     Mesh::new(kept, renumbered.collect::<Vec<_>>())
 }
 
-/// Whether a decoded mesh is the mesh in the order of its code, its positions rounded to the lattice, bit for bit.
-fn is_same(mesh: &Mesh, decoded: &Mesh, code: &MeshCode, lattice: Option<Lattice>) -> bool {
-    let expected = mesh
-        .with_face_order(code.faces())
-        .with_vertex_order(code.vertices());
+/// Whether a decoded mesh is the mesh in these orders, its positions rounded to the lattice, bit for bit.
+fn is_same(
+    mesh: &Mesh,
+    decoded: &Mesh,
+    faces: Option<&FaceOrder>,
+    vertices: Option<&VertexOrder>,
+    lattice: Option<Lattice>,
+) -> bool {
+    let mut expected = Cow::Borrowed(mesh);
+    if let Some(faces) = faces {
+        expected = Cow::Owned(expected.with_face_order(faces));
+    }
+    if let Some(vertices) = vertices {
+        expected = Cow::Owned(expected.with_vertex_order(vertices));
+    }
     let rounded = |coordinate: f32| match lattice {
         Some(lattice) => lattice
             .multiple(coordinate)

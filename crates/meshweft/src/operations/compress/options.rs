@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use crate::attribute::AttributeInfo;
-use crate::compression::{CodeError, Tier};
+use crate::compression::{CodeError, KeepOrder, Tier};
 use crate::connectivity::FirstVertex;
 use crate::error::MeshError;
 use crate::files::FileError;
@@ -19,6 +19,8 @@ pub struct CompressOptions {
     pub positions: PositionPrecision,
     /// The vertex with which each mesh begins.
     pub first_vertex: FirstVertex,
+    /// What of the order of the file is stored.
+    pub keep_order: KeepOrder,
     /// Leave out what the file stores with vertices, corners and faces, but for positions.
     pub drop_attributes: bool,
     /// Store polygons as the triangles that they are drawn as.

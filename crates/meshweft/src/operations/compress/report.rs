@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::{Map, Value, json};
 
 use super::options::{CompressOptions, PositionPrecision};
-use crate::compression::{CodeSizes, Tier};
+use crate::compression::{CodeSizes, KeepOrder, Tier};
 use crate::files::Note;
 use crate::operations::json;
 
@@ -83,6 +83,10 @@ impl CompressReport {
         };
         report.insert("tier".into(), json!(tier_name(self.options.tier)));
         report.insert("positions".into(), positions);
+        report.insert(
+            "keep_order".into(),
+            json!(order_name(self.options.keep_order)),
+        );
         report.insert("meshes".into(), Value::Null);
         report.insert("notes".into(), json::notes(&self.notes));
         json::with_list(&report, "meshes", self.meshes.iter().map(mesh_to_json))
@@ -100,10 +104,21 @@ fn mesh_to_json(mesh: &CompressedMesh) -> Value {
             json!(mesh.connectivity_bits()),
         ),
         ("position_bits_per_vertex", json!(mesh.position_bits())),
+        ("order_bytes", json!(mesh.sizes.order)),
         ("buffer_size", json!(mesh.buffer_size)),
     ];
     let members = members.map(|(key, value)| (key.to_owned(), value));
     Value::Object(Map::from_iter(members))
+}
+
+/// What of the order is kept, as flags and reports name it.
+fn order_name(keep: KeepOrder) -> Option<&'static str> {
+    match keep {
+        KeepOrder::Nothing => None,
+        KeepOrder::Faces => Some("faces"),
+        KeepOrder::Vertices => Some("vertices"),
+        KeepOrder::Both => Some("both"),
+    }
 }
 
 /// The tier as flags and reports name it.
