@@ -16,8 +16,8 @@ const FLAGS = [0, 1, 2, 3];
 /** On more faces the greatest effort without a budget takes minutes, and is left out. */
 const MOST_FACES_WITHOUT_END = 300;
 
-/** Faces in any order, turned at random, their vertices numbered at random. */
-function shuffledMesh(name, vertexCount, faces, random) {
+/** A mesh of faces in any order, turned at random, their vertices numbered at random. */
+export function shuffledMesh(name, vertexCount, faces, random) {
     const numbers = shuffled(Array(vertexCount).keys(), random);
     const turned = faces.map((face) => {
         const turn = Math.floor(3 * random());
@@ -70,8 +70,8 @@ function soup(name, faceCount, vertexCount) {
     return { name, vertexCount, indices: faces.flat() };
 }
 
-/** The triangles of an OFF file. */
-async function off(name, file) {
+/** The triangles and positions of an OFF file. */
+export async function off(name, file) {
     const words = gunzipSync(await readFile(file)).toString("latin1").trim().split(/\s+/);
     const [vertexCount, faceCount] = words.slice(1, 3).map(Number);
     const numbers = words.slice(4 + 3 * vertexCount).map(Number);
@@ -79,7 +79,8 @@ async function off(name, file) {
     if (words[0] !== "OFF" || numbers.length !== 4 * faceCount || faces.some(([corners]) => corners !== 3)) {
         throw new Error(`${file}: the triangles are not as expected`);
     }
-    return { name, vertexCount, indices: faces.flatMap(([, ...face]) => face) };
+    const positions = Float32Array.from(words.slice(4, 4 + 3 * vertexCount), Number);
+    return { name, vertexCount, positions, indices: faces.flatMap(([, ...face]) => face) };
 }
 
 export const SMALLEST = { name: "one face", vertexCount: 3, indices: [2, 0, 1] };

@@ -123,6 +123,29 @@ pub unsafe extern "C" fn misses(
     crate::misses(indices, vertex_count, cache)
 }
 
+/// What [`compressed`] answered last.
+static ANSWER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
+
+/// [`compressed::answer`](crate::compressed::answer) to a case; its length in bytes. It lies where [`answer`] says.
+///
+/// # Safety
+/// `case` points to that many bytes, which do not change during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn compressed(case: *const u8, case_bytes: usize) -> usize {
+    // SAFETY: the caller promises it.
+    let case = unsafe { slice::from_raw_parts(case, case_bytes) };
+    let mut kept = ANSWER.lock().unwrap_or_else(PoisonError::into_inner);
+    *kept = crate::compressed::answer(case);
+    kept.len()
+}
+
+/// Where the last answer of [`compressed`] lies, until its next call.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer() -> *const u8 {
+    let kept = ANSWER.lock().unwrap_or_else(PoisonError::into_inner);
+    kept.as_ptr()
+}
+
 /// The text there; empty if it is not UTF-8.
 ///
 /// # Safety

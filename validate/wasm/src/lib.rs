@@ -3,6 +3,7 @@
 //! What is asked for comes as numbers and text, so that both sides take the same words: a host of
 //! wasm32 through [`exports`], the program `native` through standard input.
 
+pub mod compressed;
 pub mod exports;
 
 use meshweft::operations::{IndexOptions, VertexIndex, optimize_indices};

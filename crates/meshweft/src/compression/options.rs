@@ -17,7 +17,7 @@ pub enum Tier {
 
 impl Tier {
     /// All tiers, by the number that a stream has for them.
-    pub(super) const ALL: [Self; 2] = [Self::Fast, Self::Default];
+    pub const ALL: [Self; 2] = [Self::Fast, Self::Default];
 }
 
 /// How positions are stored.
