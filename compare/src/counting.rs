@@ -44,6 +44,11 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
+/// How much is allocated now; counts only where [`Counting`] is the global allocator.
+pub fn in_use() -> usize {
+    IN_USE.load(Ordering::Relaxed)
+}
+
 /// What `job` returns, and the most that was allocated at once meanwhile beyond what was before.
 ///
 /// Counts only where [`Counting`] is the global allocator.

@@ -177,6 +177,7 @@ impl RansDecoder {
         let words = bytes.chunks_exact(2);
         self.is_odd = !words.remainder().is_empty();
         self.words.clear();
+        self.words.reserve_exact(bytes.len() / 2);
         self.words
             .extend(words.map(|word| u16::from_le_bytes([word[0], word[1]])));
         self.asked = 0;

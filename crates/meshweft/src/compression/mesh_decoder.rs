@@ -14,9 +14,9 @@ use crate::mesh::Mesh;
 /// Decodes a mesh while its bytes arrive.
 ///
 /// Vertices and faces come block by block, and a face never before its vertices. What was not taken stays; beyond
-/// that, the decoder keeps about 110 bytes for each vertex of the buffer that minimum-time rendering needs, and
-/// the bytes of one block. Where the order of the source is stored, it comes after all faces, and takes five bytes a face
-/// and four a vertex.
+/// that, the decoder needs at most 64 KiB and 256 bytes for each vertex of the buffer that minimum-time rendering needs,
+/// where a push brings no more than one block. Where the order of the source is stored, it comes after all faces, and takes
+/// five bytes a face and four a vertex.
 ///
 /// ```
 /// use meshweft::compression::{CodeOptions, MeshCode, MeshDecoder};
@@ -118,12 +118,35 @@ impl MeshDecoder {
         if let Some(error) = &self.error {
             return Err(error.clone());
         }
-        let before = self.waiting.len();
-        self.waiting.extend_from_slice(bytes);
-        let waiting = std::mem::take(&mut self.waiting);
+
+        // Where nothing waits, nothing is copied but the bytes of the last block.
+        let mut waiting = std::mem::take(&mut self.waiting);
+        let before = waiting.len();
+        let next = match before {
+            0 => bytes,
+            _ => {
+                append(&mut waiting, bytes);
+                &waiting
+            }
+        };
+        let used = self.read_all(next)?;
+        self.passed += used;
+        if self.is_complete() {
+            return Ok(used - before);
+        }
+        match before {
+            0 => append(&mut waiting, &bytes[used..]),
+            _ => drop(waiting.drain(..used)),
+        }
+        self.waiting = waiting;
+        Ok(bytes.len())
+    }
+
+    /// Reads all pieces that are complete; returns their length.
+    fn read_all(&mut self, bytes: &[u8]) -> Result<usize, DecodeError> {
         let mut used = 0;
         while !self.is_complete() {
-            match self.read(&waiting[used..]) {
+            match self.read(&bytes[used..]) {
                 Ok(Some(length)) => used += length,
                 Ok(None) => break,
                 Err(mut error) => {
@@ -133,13 +156,7 @@ impl MeshDecoder {
                 }
             }
         }
-        self.passed += used;
-        if self.is_complete() {
-            return Ok(used - before);
-        }
-        self.waiting = waiting;
-        self.waiting.drain(..used);
-        Ok(bytes.len())
+        Ok(used)
     }
 
     /// Reads the next piece; returns its length, or `None` if it is not complete.
@@ -162,8 +179,8 @@ impl MeshDecoder {
         let positions = &mut self.positions;
         let read = with_reader!(reader, reader => {
             let read = reader.read_piece(bytes)?;
-            let numbers = reader.at_vertices().read.drain(..);
-            positions.extend(numbers.map(|numbers| frame.coordinates(numbers)));
+            let numbers = std::mem::take(&mut reader.at_vertices().read);
+            add(positions, numbers, |numbers| frame.coordinates(numbers));
             read
         });
         Ok(read)
@@ -216,6 +233,27 @@ impl MeshDecoder {
                 kind: DecodeErrorKind::EndsEarly,
             }),
         }
+    }
+}
+
+/// Appends bytes to those that wait. Grown by half, not to twice as much: this is most of what a decoder keeps.
+fn append(waiting: &mut Vec<u8>, bytes: &[u8]) {
+    if waiting.capacity() - waiting.len() < bytes.len() {
+        waiting.reserve_exact(bytes.len().max(waiting.len() / 2));
+    }
+    waiting.extend_from_slice(bytes);
+}
+
+/// Appends positions that were read as numbers: where none wait, in the memory of the numbers.
+fn add(
+    positions: &mut Vec<[f32; 3]>,
+    read: Vec<[u32; 3]>,
+    position: impl FnMut([u32; 3]) -> [f32; 3],
+) {
+    let read = read.into_iter().map(position);
+    match positions.is_empty() {
+        true => *positions = read.collect(),
+        false => positions.extend(read),
     }
 }
 

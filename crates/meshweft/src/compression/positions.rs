@@ -203,6 +203,10 @@ impl<C: Coordinate, M: FanModel> VertexCoder for Positions<'_, C, M> {
 
     const LANES: usize = 3;
 
+    fn expect(&mut self, vertices: usize) {
+        self.read.reserve(vertices);
+    }
+
     #[inline]
     fn code(&mut self, port: &mut impl Port, source: u32, near: [u32; 3]) {
         // What is expected.

@@ -18,6 +18,9 @@ use crate::permutation::{FaceOrder, Permutation, VertexOrder};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct BlockSize(pub(crate) usize);
 
+/// Room is made for no more than this at once, so that bytes that say much get little.
+const MOST_RESERVED: usize = 4096;
+
 impl BlockSize {
     /// Everything in one block of each kind.
     pub(crate) const WHOLE: Self = Self(usize::MAX);
@@ -220,6 +223,7 @@ impl<V: VertexCoder> BlockReader<V> {
         let Some(block) = rest.get(..number) else {
             return Ok(None);
         };
+        self.reserve();
         let read = match (self.traversal.is_complete(), self.apart_left()) {
             (false, _) => self.read_fans(block),
             (true, 0) => self.read_flat(block),
@@ -230,6 +234,25 @@ impl<V: VertexCoder> BlockReader<V> {
             ..error
         })?;
         Ok(Some(begins + number))
+    }
+
+    /// Makes room for what the next block has: grown as it comes, it would be up to twice as large.
+    fn reserve(&mut self) {
+        let most = self.block_size.0.min(MOST_RESERVED);
+        let flat_left = self.flat.map_or(0, |flat| flat - self.flat_read);
+        let left = self.vertex_count - self.traversal.known.vertex_count() as usize;
+        let [faces, vertices] = match (self.traversal.is_complete(), self.apart_left()) {
+            // The last root may have some more faces; a surface with a border has more than half as many vertices.
+            (false, _) => {
+                let faces = self.traversal.faces_left().min(most + most / 64);
+                [faces, left.min(faces / 2 + most / 16)]
+            }
+            (true, 0) => [flat_left.min(most), 0],
+            (true, apart) => [0, apart.min(most)],
+        };
+        let fans = &mut self.traversal.fans;
+        fans.faces.reserve(faces);
+        fans.at_vertices.expect(vertices);
     }
 
     fn read_fans(&mut self, block: &[u8]) -> Result<(), DecodeError> {

@@ -1,9 +1,10 @@
 //! What is likely, by chances that are mixed from what is known around and how vertices lie.
 
 use super::fan_model::{FanModel, Outlook};
+use super::lazy_tables::LazyTables;
 use super::model::{LANE, TableModel};
 use super::traversal::{FanTurn, Gap, Run};
-use crate::bits::{AdaptiveTable, BitChance, Port, Weights, code_mixed, even_weights};
+use crate::bits::{BitChance, Port, Weights, code_mixed, even_weights};
 
 /// How many chances are mixed.
 const INPUTS: usize = 4;
@@ -32,7 +33,7 @@ pub(crate) struct MixedModel {
     chances: [Vec<[BitChance; 2]>; INPUTS],
     weights: Vec<[Weights<INPUTS>; 2]>,
     /// Of turns, by direction, reach and what is beyond.
-    turns: Vec<Option<AdaptiveTable>>,
+    turns: LazyTables,
     tables: TableModel,
     /// How far the other end of the gap was in the last run.
     reach: u8,
@@ -51,7 +52,7 @@ impl FanModel for MixedModel {
         Self {
             chances: SIZES.map(|size| vec![[BitChance::EVEN; 2]; size]),
             weights: vec![[even_weights(); 2]; ROOTS],
-            turns: vec![None; 2 * 8 * 8 * 8],
+            turns: LazyTables::new(2 * 8 * 8 * 8),
             tables: TableModel::new(),
             reach: 0,
         }
@@ -97,7 +98,7 @@ impl FanModel for MixedModel {
             place = 8 * place + coarse(step);
         }
         self.tables
-            .turn_with(port, gap, Some(&mut self.turns[place]), turn)
+            .turn_with(port, gap, Some((&mut self.turns, place)), turn)
     }
 
     fn known(&mut self, port: &mut impl Port, root: u32, count: u32, vertex: u32) -> u32 {

@@ -18,6 +18,7 @@ mod encoder;
 mod fan_model;
 mod flat_faces;
 mod known_faces;
+mod lazy_tables;
 mod mixed_model;
 mod model;
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! What is likely, by tables of what is known around.
 
 use super::fan_model::{FanModel, Outlook};
+use super::lazy_tables::LazyTables;
 use super::traversal::{FanTurn, Gap, Run};
 use crate::bits::{AdaptiveTable, Lane, Port, SYMBOLS};
 use crate::index::index32;
@@ -18,13 +19,13 @@ pub(crate) struct TableModel {
     /// Of runs, by how many faces the root has.
     by_root: Vec<AdaptiveTable>,
     /// The same, by both ends of the gap too.
-    by_ends: Vec<Option<AdaptiveTable>>,
+    by_ends: LazyTables,
     /// The same, by the surplus and one end.
-    by_surplus: Vec<Option<AdaptiveTable>>,
+    by_surplus: LazyTables,
     /// Of turns, by direction.
     turns: [AdaptiveTable; 2],
     /// The same, by both ends of the gap too.
-    turns_by_ends: Vec<Option<AdaptiveTable>>,
+    turns_by_ends: LazyTables,
     /// Whether a vertex is new.
     newness: AdaptiveTable,
     /// Which vertex, if it is near one of the ends.
@@ -42,10 +43,10 @@ impl FanModel for TableModel {
         let surplus = 2 * MOST_SURPLUS.unsigned_abs() as usize + 1;
         Self {
             by_root: vec![AdaptiveTable::EVEN; 2 * root],
-            by_ends: vec![None; 2 * root * from * (to + 1)],
-            by_surplus: vec![None; 2 * root * surplus * (to + 1)],
+            by_ends: LazyTables::new(2 * root * from * (to + 1)),
+            by_surplus: LazyTables::new(2 * root * surplus * (to + 1)),
             turns: [AdaptiveTable::EVEN; 2],
-            turns_by_ends: vec![None; 2 * (from + 1) * (to + 1)],
+            turns_by_ends: LazyTables::new(2 * (from + 1) * (to + 1)),
             newness: AdaptiveTable::EVEN,
             nearness: AdaptiveTable::EVEN,
             lengths: [AdaptiveTable::EVEN; 2],
@@ -66,9 +67,11 @@ impl FanModel for TableModel {
         let by_surplus = (root * surpluses + surplus.unsigned_abs() as usize) * tos + to;
 
         let parent = &mut self.by_root[root];
-        let ends = &mut self.by_ends[(root * froms + place(1)) * tos + to];
-        let ends = ends.get_or_insert_with(|| parent.child());
-        let surplus = self.by_surplus[by_surplus].get_or_insert_with(|| parent.child());
+        let by_ends = (root * froms + place(1)) * tos + to;
+        let ends = self.by_ends.get_or_insert_with(by_ends, || parent.child());
+        let surplus = self
+            .by_surplus
+            .get_or_insert_with(by_surplus, || parent.child());
 
         // The symbol.
         let symbol = 2 * run.new.min(Self::MOST_NEW) + usize::from(run.is_end);
@@ -131,7 +134,7 @@ impl TableModel {
         &mut self,
         port: &mut impl Port,
         gap: &Gap,
-        other: Option<&mut Option<AdaptiveTable>>,
+        other: Option<(&mut LazyTables, usize)>,
         turn: usize,
     ) -> FanTurn {
         let backward = usize::from(gap.is_backward);
@@ -139,12 +142,14 @@ impl TableModel {
         let from = gap.known[1].min(MOST_KNOWN[1]) as usize;
         let to = gap.known[2].min(MOST_KNOWN[2]) as usize;
         let parent = &mut self.turns[backward];
-        let table = &mut self.turns_by_ends[(backward * (froms + 1) + from) * (tos + 1) + to];
-        let table = table.get_or_insert_with(|| parent.child());
+        let by_ends = (backward * (froms + 1) + from) * (tos + 1) + to;
+        let table = self
+            .turns_by_ends
+            .get_or_insert_with(by_ends, || parent.child());
         let turn = match other {
             None => port.code(LANE, table, turn),
-            Some(other) => {
-                let other = other.get_or_insert_with(|| parent.child());
+            Some((others, place)) => {
+                let other = others.get_or_insert_with(place, || parent.child());
                 let turn = port.code(LANE, &table.with(other), turn);
                 other.see(turn);
                 turn

@@ -164,6 +164,10 @@ impl<F: Fans> Traversal<F> {
         self.faces_left == 0
     }
 
+    pub(super) fn faces_left(&self) -> usize {
+        self.faces_left
+    }
+
     /// Goes through the faces of root after root, until there were enough, or none is left.
     pub(super) fn go(&mut self, enough: usize) -> Result<(), DecodeError> {
         let end = self.faces_left.saturating_sub(enough);

@@ -19,6 +19,9 @@ pub(crate) trait VertexCoder {
     /// all, they are itself.
     fn code(&mut self, port: &mut impl Port, source: u32, near: [u32; 3]);
 
+    /// About this number of vertices comes next.
+    fn expect(&mut self, _vertices: usize) {}
+
     /// How far a vertex is from where a new one would be expected beyond an edge, as [`Outlook::reach`]. The edge's
     /// vertices come first, then the third vertex of the known face there.
     fn reach(&self, edge: [u32; 2], across: u32, vertex: u32) -> u8;
