@@ -60,7 +60,7 @@ fn main() -> ExitCode {
     let (mut count, mut above) = (0, 0);
     for (name, mesh) in &meshes {
         let lattice = Lattice::of_bits(mesh.positions().to_vec(), 14).expect("14 bits");
-        for tier in Tier::ALL {
+        for &tier in Tier::ALL {
             for positions in [PositionCoding::Lossless, PositionCoding::OnLattice(lattice)] {
                 count += 1;
                 above += usize::from(!is_within(name, mesh, tier, positions));
@@ -80,6 +80,7 @@ fn is_within(name: &str, mesh: &Mesh, tier: Tier, positions: PositionCoding) -> 
         tier,
         positions,
         first_vertex: FirstVertex::MinBuffer.choose(mesh).expect("a small mesh"),
+        ..CodeOptions::default()
     };
     let code = MeshCode::new(mesh, &options).expect("finite positions");
     let decoded = MeshCode::decode(code.bytes(), Limits::default()).expect("what was written");

@@ -72,6 +72,7 @@ fn decoded(case: &[u8]) -> Result<[Vec<u8>; 6], String> {
         tier: *Tier::ALL.get(tier as usize).ok_or("no such tier")?,
         positions: positions_coding,
         first_vertex,
+        ..CodeOptions::default()
     };
 
     // The code, and what it is decoded as.

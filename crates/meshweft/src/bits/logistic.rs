@@ -19,49 +19,43 @@ static CHANCES: [i32; 49] = [
 
 /// The chance of log-odds.
 #[inline]
-pub(super) const fn chance(odds: i32) -> i32 {
-    let odds = match odds {
-        odds if odds < -MOST => -MOST,
-        odds if odds > MOST => MOST,
-        odds => odds,
-    };
+pub(super) fn chance(odds: i32) -> i32 {
+    let odds = odds.clamp(-MOST, MOST);
     // Between the two nearest that are known.
     let above = odds + 12 * UNIT;
-    let place = (above / (UNIT / 2)) as usize;
+    let place = (above / (UNIT / 2)).unsigned_abs() as usize;
     let part = above % (UNIT / 2);
     let (low, high) = (CHANCES[place], CHANCES[place + 1]);
     low + ((high - low) * part) / (UNIT / 2)
 }
 
 /// How many chances have log-odds of their own.
-const STEPS: usize = 4096;
+const STEPS: usize = 2048;
 
-/// Log-odds of chances.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_possible_wrap,
-    reason = "below 65,536, and at most twelve units"
-)]
-static ODDS: [i16; STEPS] = {
-    let mut odds = [0; STEPS];
-    let mut of = -MOST;
-    let mut place = 0;
-    while place < STEPS {
-        // The least whose chance reaches the middle of the step.
-        let middle = (16 * place + 8) as i32;
-        while chance(of) < middle && of < MOST {
-            of += 1;
-        }
-        odds[place] = of as i16;
-        place += 1;
+/// Log-odds of chances. Made where it is needed: in a module of a web page it would be much of the code.
+#[derive(Debug)]
+pub(crate) struct LogOdds(Vec<i16>);
+
+impl LogOdds {
+    pub(crate) fn new() -> Self {
+        let mut of = -MOST;
+        let mut middle = 16;
+        let step = |_| {
+            // The least whose chance reaches the middle of the step.
+            while chance(of) < middle && of < MOST {
+                of += 1;
+            }
+            middle += 32;
+            i16::try_from(of).unwrap_or(0)
+        };
+        Self((0..STEPS).map(step).collect())
     }
-    odds
-};
 
-/// The log-odds of a chance, at most about nine.
-#[inline]
-pub(super) fn log_odds(chance: u32) -> i32 {
-    i32::from(ODDS[(chance >> 4) as usize & (STEPS - 1)])
+    /// The log-odds of a chance, at most about eight.
+    #[inline]
+    pub(super) fn of(&self, chance: u16) -> i32 {
+        i32::from(self.0[usize::from(chance >> 5)])
+    }
 }
 
 #[cfg(test)]
@@ -77,8 +71,9 @@ mod tests {
             let exact = 65_536.0 / (1.0 + (-f64::from(odds) / 256.0).exp());
             assert!((f64::from(chance(odds)) - exact).abs() < 200.0, "{odds}");
         }
-        for of in (8..65_528).step_by(7) {
-            let back = chance(log_odds(of)).abs_diff(of.cast_signed());
+        let log_odds = LogOdds::new();
+        for of in (16..65_520_u16).step_by(7) {
+            let back = chance(log_odds.of(of)).abs_diff(of.into());
             assert!(back <= 300, "{of}: {back}");
         }
     }

@@ -1,15 +1,15 @@
 //! Bits whose chances are mixed from several.
 
-use super::logistic::{ONE, chance, log_odds};
+use super::logistic::{LogOdds, ONE, chance};
 use super::rans::{Lane, Port};
 
-/// How likely a bit is set, by those that came.
+/// How likely each of two bits is set, by those that came.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct BitChance {
+pub(crate) struct BitChances {
     /// In parts of 65,536.
-    chance: u16,
+    chances: [u16; 2],
     /// How many came, as far as that changes a step.
-    seen: u16,
+    seen: [u8; 2],
 }
 
 /// How far a chance moves, in parts of 65,536, by the number of bits that came.
@@ -25,18 +25,19 @@ static STEPS: [u16; 255] = {
     steps
 };
 
-impl BitChance {
+impl BitChances {
     pub(crate) const EVEN: Self = Self {
-        chance: 1 << 15,
-        seen: 0,
+        chances: [1 << 15; 2],
+        seen: [0; 2],
     };
 
     #[inline]
-    fn see(&mut self, is_set: bool) {
+    fn see(&mut self, which: usize, is_set: bool) {
         let goal = if is_set { ONE - 1 } else { 0 };
-        let step = i32::from(STEPS[usize::from(self.seen)]);
-        self.seen += u16::from(usize::from(self.seen) + 1 < STEPS.len());
-        let chance = i32::from(self.chance);
+        let seen = &mut self.seen[which];
+        let step = i32::from(STEPS[usize::from(*seen)]);
+        *seen += u8::from(usize::from(*seen) + 1 < STEPS.len());
+        let chance = i32::from(self.chances[which]);
         let moved = chance + (((goal - chance) * (step >> 1)) >> 15);
         #[expect(
             clippy::cast_possible_truncation,
@@ -44,7 +45,7 @@ impl BitChance {
             reason = "between the chance and the goal"
         )]
         let moved = moved as u16;
-        self.chance = moved;
+        self.chances[which] = moved;
     }
 }
 
@@ -70,7 +71,8 @@ const RATE: u32 = 16;
 pub(crate) fn code_mixed<const N: usize>(
     port: &mut impl Port,
     lane: Lane,
-    chances: &mut [&mut [BitChance; 2]; N],
+    log_odds: &LogOdds,
+    chances: &mut [&mut BitChances; N],
     which: usize,
     weights: &mut Weights<N>,
     is_set: bool,
@@ -79,7 +81,7 @@ pub(crate) fn code_mixed<const N: usize>(
     let mut odds = [0; N];
     let mut sum = 0;
     for input in 0..N {
-        odds[input] = log_odds(u32::from(chances[input][which].chance));
+        odds[input] = log_odds.of(chances[input].chances[which]);
         sum = i32::wrapping_add(sum, odds[input].wrapping_mul(weights[input]));
     }
     let mixed = chance(sum >> 16);
@@ -91,7 +93,7 @@ pub(crate) fn code_mixed<const N: usize>(
     for input in 0..N {
         let step = (odds[input] * error + (1 << 15)) >> RATE;
         weights[input] = weights[input].wrapping_add(step);
-        chances[input][which].see(is_set);
+        chances[input].see(which, is_set);
     }
     is_set
 }
@@ -115,12 +117,20 @@ mod tests {
     }
 
     fn coded(port: &mut impl Port, bits: &[([usize; 2], bool)]) -> Vec<bool> {
-        let mut chances = [[[BitChance::EVEN; 2]; 2]; 2];
-        let mut weights = even_weights();
+        let mut chances = [[BitChances::EVEN; 2]; 2];
+        let (log_odds, mut weights) = (LogOdds::new(), even_weights());
         let code = |&(places, is_set): &([usize; 2], bool)| {
             let [a, b] = &mut chances;
             let mut chosen = [&mut a[places[0]], &mut b[places[1]]];
-            code_mixed(port, Lane::ALL[0], &mut chosen, 1, &mut weights, is_set)
+            code_mixed(
+                port,
+                Lane::ALL[0],
+                &log_odds,
+                &mut chosen,
+                1,
+                &mut weights,
+                is_set,
+            )
         };
         bits.iter().map(code).collect()
     }

@@ -5,7 +5,9 @@
 mod adaptive_table;
 mod checksum;
 mod error;
+#[cfg(feature = "default-tier")]
 mod logistic;
+#[cfg(feature = "default-tier")]
 mod mixed_bit;
 mod number;
 mod rans;
@@ -14,6 +16,9 @@ pub(crate) mod varint;
 pub(crate) use adaptive_table::{AdaptiveTable, SYMBOLS};
 pub(crate) use checksum::crc32;
 pub use error::{DecodeError, DecodeErrorKind};
-pub(crate) use mixed_bit::{BitChance, Weights, code_mixed, even_weights};
+#[cfg(feature = "default-tier")]
+pub(crate) use logistic::LogOdds;
+#[cfg(feature = "default-tier")]
+pub(crate) use mixed_bit::{BitChances, Weights, code_mixed, even_weights};
 pub(crate) use number::NumberCoder;
 pub(crate) use rans::{Lane, MOST_BITS, Port, RansDecoder, RansEncoder};

@@ -2,7 +2,6 @@
 
 use super::adaptive_table::{AdaptiveTable, SYMBOLS};
 use super::rans::{Lane, MOST_BITS, Port};
-use crate::index::index32;
 
 /// The last symbol: this many bits or more.
 const MOST: u32 = {
@@ -35,7 +34,7 @@ impl NumberCoder {
         let mut length = u32::BITS - number.leading_zeros();
         let symbol = port.code(LANE, &self.lengths, length.min(MOST) as usize);
         self.lengths.see(symbol);
-        length = match index32(symbol) {
+        length = match bits_of(symbol) {
             MOST => MOST + self.more(port, length.wrapping_sub(MOST)),
             length => length,
         };
@@ -57,11 +56,16 @@ impl NumberCoder {
     fn more(&mut self, port: &mut impl Port, more: u32) -> u32 {
         let symbol = port.code(LANE, &self.more, more.min(MOST) as usize);
         self.more.see(symbol);
-        match index32(symbol) {
+        match bits_of(symbol) {
             MOST => (MOST + port.bits(LANE, 2, more.wrapping_sub(MOST) & 3)).min(17),
             more => more,
         }
     }
+}
+
+/// A symbol as a number of bits.
+fn bits_of(symbol: usize) -> u32 {
+    u32::try_from(symbol).unwrap_or(MOST)
 }
 
 #[cfg(test)]

@@ -39,6 +39,10 @@ pub(crate) trait Port {
     fn bits(&mut self, lane: Lane, count: u32, bits: u32) -> u32;
 
     /// A bit that is set with a chance in parts of 32,768, neither 0 nor all.
+    #[cfg_attr(
+        not(feature = "default-tier"),
+        expect(dead_code, reason = "for that tier")
+    )]
     fn bit(&mut self, lane: Lane, chance: u32, is_set: bool) -> bool;
 }
 

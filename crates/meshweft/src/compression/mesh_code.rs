@@ -1,11 +1,12 @@
 //! A mesh as bytes.
 
-use super::BLOCK_SIZE;
 use super::options::{CodeError, CodeOptions, PositionCoding, Tier};
 use super::positions::{Coordinate, Exact, OnLattice, Positions};
 use super::source_order;
 use crate::bits::varint;
-use crate::connectivity::{Blocks, MixedModel, TableModel};
+#[cfg(feature = "default-tier")]
+use crate::connectivity::MixedModel;
+use crate::connectivity::{Blocks, TableModel};
 use crate::faces::Faces;
 use crate::geometry::Lattice;
 use crate::mesh::Mesh;
@@ -115,7 +116,7 @@ impl MeshCode {
         // What leads back to the order of the source.
         let (of_faces, of_vertices) = (&blocks.faces, &blocks.vertices);
         let keep = options.keep_order;
-        let order = source_order::write(&mut bytes, of_faces, of_vertices, keep, BLOCK_SIZE);
+        let order = source_order::write(&mut bytes, of_faces, of_vertices, keep);
         let [connectivity, positions] = blocks.bits.map(|bits| bits / 8.0);
         Ok(Self {
             sizes: CodeSizes {
@@ -160,11 +161,12 @@ fn write<C: Coordinate>(tier: Tier, faces: Faces<'_>, vertex: u32, numbers: &[[u
     match tier {
         Tier::Fast => {
             let coder = Positions::<C, TableModel>::new(Some(numbers));
-            Blocks::write(faces, vertex, BLOCK_SIZE, coder)
+            Blocks::write(faces, vertex, C::BLOCK_SIZE, coder)
         }
+        #[cfg(feature = "default-tier")]
         Tier::Default => {
             let coder = Positions::<C, MixedModel>::new(Some(numbers));
-            Blocks::write(faces, vertex, BLOCK_SIZE, coder)
+            Blocks::write(faces, vertex, C::BLOCK_SIZE, coder)
         }
     }
 }

@@ -1,12 +1,13 @@
 //! Bytes as a mesh.
 
-use super::BLOCK_SIZE;
 use super::mesh_code::{IS_LOSSLESS, KEEPS, MeshCode};
 use super::options::Tier;
 use super::positions::{Coordinate, Exact, OnLattice, Positions};
 use super::source_order::{OrderReader, SourceOrder};
 use crate::bits::{DecodeError, DecodeErrorKind, varint};
-use crate::connectivity::{BlockReader, FanModel, MixedModel, TableModel};
+#[cfg(feature = "default-tier")]
+use crate::connectivity::MixedModel;
+use crate::connectivity::{BlockReader, FanModel, TableModel};
 use crate::geometry::Lattice;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
@@ -51,13 +52,13 @@ pub struct MeshDecoder {
 /// The blocks, by how positions are stored and faces are coded.
 #[derive(Debug)]
 struct MeshBlocks {
-    reader: Reader,
-    frame: Frame,
+    reader: TierReader,
+    frame: PositionFrame,
 }
 
 /// How numbers become coordinates.
 #[derive(Debug, Clone, Copy)]
-enum Frame {
+enum PositionFrame {
     Lossless,
     OnLattice { lattice: Lattice, origin: [i64; 3] },
 }
@@ -65,10 +66,12 @@ enum Frame {
 type PositionReader<C, M> = BlockReader<Positions<'static, C, M>>;
 
 #[derive(Debug)]
-enum Reader {
+enum TierReader {
     FastLossless(PositionReader<Exact, TableModel>),
     FastOnLattice(PositionReader<OnLattice, TableModel>),
+    #[cfg(feature = "default-tier")]
     Lossless(PositionReader<Exact, MixedModel>),
+    #[cfg(feature = "default-tier")]
     OnLattice(PositionReader<OnLattice, MixedModel>),
 }
 
@@ -76,15 +79,17 @@ enum Reader {
 macro_rules! with_reader {
     ($of:expr, $reader:ident => $do:expr) => {
         match $of {
-            Reader::FastLossless($reader) => $do,
-            Reader::FastOnLattice($reader) => $do,
-            Reader::Lossless($reader) => $do,
-            Reader::OnLattice($reader) => $do,
+            TierReader::FastLossless($reader) => $do,
+            TierReader::FastOnLattice($reader) => $do,
+            #[cfg(feature = "default-tier")]
+            TierReader::Lossless($reader) => $do,
+            #[cfg(feature = "default-tier")]
+            TierReader::OnLattice($reader) => $do,
         }
     };
 }
 
-impl Frame {
+impl PositionFrame {
     fn coordinates(&self, numbers: [u32; 3]) -> [f32; 3] {
         match self {
             Self::Lossless => numbers.map(Exact::coordinate),
@@ -103,7 +108,7 @@ impl MeshDecoder {
             waiting: Vec::new(),
             passed: 0,
             reader: None,
-            order: OrderReader::new([None; 2], BLOCK_SIZE),
+            order: OrderReader::new([None; 2]),
             positions: Vec::new(),
             error: None,
         }
@@ -326,7 +331,7 @@ fn read_beginning(
     let kept = [kept(KEEPS[0], faces), kept(KEEPS[1], vertices)];
 
     // Where positions are.
-    let mut frame = Frame::Lossless;
+    let mut frame = PositionFrame::Lossless;
     if flags & IS_LOSSLESS == 0 {
         let Some((step, mut after)) = rest.split_first_chunk() else {
             return Ok(None);
@@ -341,22 +346,28 @@ fn read_beginning(
             }
         }
         rest = after;
-        frame = Frame::OnLattice { lattice, origin };
+        frame = PositionFrame::OnLattice { lattice, origin };
     }
 
     // What reads them.
     let counts = [faces, vertices];
     let reader = match (tier, frame) {
-        (Tier::Fast, Frame::Lossless) => Reader::FastLossless(reader_of(counts)),
-        (Tier::Fast, Frame::OnLattice { .. }) => Reader::FastOnLattice(reader_of(counts)),
-        (Tier::Default, Frame::Lossless) => Reader::Lossless(reader_of(counts)),
-        (Tier::Default, Frame::OnLattice { .. }) => Reader::OnLattice(reader_of(counts)),
+        (Tier::Fast, PositionFrame::Lossless) => TierReader::FastLossless(reader_of(counts)),
+        (Tier::Fast, PositionFrame::OnLattice { .. }) => {
+            TierReader::FastOnLattice(reader_of(counts))
+        }
+        #[cfg(feature = "default-tier")]
+        (Tier::Default, PositionFrame::Lossless) => TierReader::Lossless(reader_of(counts)),
+        #[cfg(feature = "default-tier")]
+        (Tier::Default, PositionFrame::OnLattice { .. }) => {
+            TierReader::OnLattice(reader_of(counts))
+        }
     };
     *bytes = rest;
     let reader = MeshBlocks { reader, frame };
-    Ok(Some((reader, OrderReader::new(kept, BLOCK_SIZE))))
+    Ok(Some((reader, OrderReader::new(kept))))
 }
 
 fn reader_of<C: Coordinate, M: FanModel>([faces, vertices]: [usize; 2]) -> PositionReader<C, M> {
-    BlockReader::new(faces, vertices, BLOCK_SIZE, Positions::new(None))
+    BlockReader::new(faces, vertices, C::BLOCK_SIZE, Positions::new(None))
 }

@@ -24,13 +24,8 @@ mod source_order;
 #[cfg(test)]
 mod tests;
 
-use crate::connectivity::BlockSize;
-
 pub use archive::MeshArchive;
 pub use mesh_code::{CodeSizes, MeshCode};
 pub use mesh_decoder::MeshDecoder;
 pub use options::{CodeError, CodeOptions, KeepOrder, PositionCoding, Tier};
 pub use source_order::SourceOrder;
-
-/// How much is decoded at once.
-const BLOCK_SIZE: BlockSize = BlockSize(4096);

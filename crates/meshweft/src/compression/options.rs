@@ -9,15 +9,22 @@ use crate::geometry::Lattice;
 #[non_exhaustive]
 pub enum Tier {
     /// Tables of frequencies by what is around: the fastest to decode.
+    #[cfg_attr(not(feature = "default-tier"), default)]
     Fast,
-    /// Chances that are mixed from what is around and how it lies: fewer bytes.
+    /// Chances that are mixed from what is around and how it lies: fewer bytes. With the feature `default-tier`, which
+    /// is on by default.
+    #[cfg(feature = "default-tier")]
     #[default]
     Default,
 }
 
 impl Tier {
     /// All tiers, by the number that a stream has for them.
-    pub const ALL: [Self; 2] = [Self::Fast, Self::Default];
+    pub const ALL: &[Self] = &[
+        Self::Fast,
+        #[cfg(feature = "default-tier")]
+        Self::Default,
+    ];
 }
 
 /// How positions are stored.

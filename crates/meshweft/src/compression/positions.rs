@@ -2,7 +2,7 @@
 
 use super::ring::Ring;
 use crate::bits::{AdaptiveTable, Lane, MOST_BITS, Port, SYMBOLS};
-use crate::connectivity::{FanModel, VertexCoder};
+use crate::connectivity::{BlockSize, FanModel, VertexCoder};
 use crate::index::index32;
 
 /// The last symbol: this number or more.
@@ -18,6 +18,9 @@ const LANES: [Lane; 3] = [Lane::ALL[1], Lane::ALL[2], Lane::ALL[3]];
 
 /// A coordinate as a number, and how it follows from others.
 pub(super) trait Coordinate {
+    /// How much is decoded at once: at about 5,000 bytes, what a block costs beyond its symbols is little.
+    const BLOCK_SIZE: BlockSize;
+
     /// What completes a parallelogram: `a + b - c`.
     fn complete(a: u32, b: u32, c: u32) -> u32;
 
@@ -30,6 +33,8 @@ pub(super) trait Coordinate {
 pub(super) struct OnLattice;
 
 impl Coordinate for OnLattice {
+    const BLOCK_SIZE: BlockSize = BlockSize(4096);
+
     #[inline]
     fn complete(a: u32, b: u32, c: u32) -> u32 {
         a.wrapping_add(b).wrapping_sub(c)
@@ -66,6 +71,8 @@ impl Exact {
 }
 
 impl Coordinate for Exact {
+    const BLOCK_SIZE: BlockSize = BlockSize(1024);
+
     /// One addition and one subtraction, rounded as IEEE 754 says: the same everywhere.
     #[inline]
     fn complete(a: u32, b: u32, c: u32) -> u32 {

@@ -8,10 +8,12 @@ use crate::bits::{
     AdaptiveTable, DecodeError, DecodeErrorKind, Lane, NumberCoder, Port, RansDecoder, RansEncoder,
     varint,
 };
-use crate::connectivity::BlockSize;
 use crate::index::index32;
 use crate::mesh::Mesh;
 use crate::permutation::{FaceOrder, Permutation, VertexOrder};
+
+/// How many places a block has.
+const BLOCK_SIZE: usize = 4096;
 
 /// The way from a mesh as it is stored to the order of its source, as far as that is stored too.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -114,7 +116,6 @@ pub(super) fn write(
     faces: &FaceOrder,
     vertices: &VertexOrder,
     keep: KeepOrder,
-    block_size: BlockSize,
 ) -> f64 {
     let begin = bytes.len();
     let [keeps_faces, keeps_vertices] = keep.parts();
@@ -126,7 +127,7 @@ pub(super) fn write(
         let mut places = SourcePlaces::new(new_to_old.len());
         let mut port = RansEncoder::new(1);
         let mut new = 0;
-        for some in new_to_old.chunks(block_size.0) {
+        for some in new_to_old.chunks(BLOCK_SIZE) {
             for &old in some {
                 places.place(&mut port, old);
                 if let Some(faces) = turned {
@@ -145,7 +146,6 @@ pub(super) fn write(
 /// Reads what [`write()`] wrote, block by block.
 #[derive(Debug)]
 pub(super) struct OrderReader {
-    block_size: BlockSize,
     /// Of the faces, then of the vertices, where each is kept.
     parts: [Option<OrderPart>; 2],
 }
@@ -165,7 +165,7 @@ struct OrderPart {
 const NONE: u32 = u32::MAX;
 
 impl OrderReader {
-    pub(super) fn new([faces, vertices]: [Option<usize>; 2], block_size: BlockSize) -> Self {
+    pub(super) fn new([faces, vertices]: [Option<usize>; 2]) -> Self {
         let part = |count: usize, has_turns| OrderPart {
             places: SourcePlaces::new(count),
             has_turns,
@@ -174,7 +174,6 @@ impl OrderReader {
             read: 0,
         };
         Self {
-            block_size,
             parts: [
                 faces.map(|count| part(count, true)),
                 vertices.map(|count| part(count, false)),
@@ -201,7 +200,7 @@ impl OrderReader {
         let Some(block) = rest.get(..length) else {
             return Ok(None);
         };
-        let read = part.read_block(block, self.block_size);
+        let read = part.read_block(block);
         read.map_err(|error| DecodeError {
             byte: begins + error.byte,
             ..error
@@ -226,13 +225,13 @@ impl OrderPart {
         self.read == self.places.count as usize
     }
 
-    fn read_block(&mut self, block: &[u8], block_size: BlockSize) -> Result<(), DecodeError> {
+    fn read_block(&mut self, block: &[u8]) -> Result<(), DecodeError> {
         let count = self.places.count as usize;
         self.old_to_new.resize(count, NONE);
         self.turns.resize(if self.has_turns { count } else { 0 }, 0);
         let mut port = RansDecoder::new(1);
         port.begin(block);
-        for _ in 0..(count - self.read).min(block_size.0) {
+        for _ in 0..(count - self.read).min(BLOCK_SIZE) {
             // A place that is free.
             let place = self.places.place(&mut port, 0);
             port.check()?;

@@ -76,7 +76,7 @@ fn any_mesh_comes_back_and_has_the_same_code_then() {
     for _ in 0..cases {
         let mesh = any_mesh(&mut random);
         let first_vertex = index32(random.below(mesh.vertex_count()));
-        for tier in Tier::ALL {
+        for &tier in Tier::ALL {
             for positions in ways(&mesh) {
                 let options = CodeOptions {
                     tier,
@@ -343,7 +343,7 @@ fn damaged_bytes_give_an_error_or_a_mesh() {
         let mesh = any_mesh(&mut random);
         let positions = ways(&mesh)[random.below(2)];
         let options = CodeOptions {
-            tier: Tier::ALL[random.below(2)],
+            tier: Tier::ALL[random.below(Tier::ALL.len())],
             positions,
             keep_order: KEPT[case % 4],
             ..Default::default()

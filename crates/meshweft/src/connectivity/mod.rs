@@ -31,9 +31,9 @@ mod window_order;
 mod window_tests;
 
 pub use fans::FanCode;
-pub(crate) use fans::{
-    BlockReader, BlockSize, Blocks, FanModel, MixedModel, TableModel, VertexCoder,
-};
+#[cfg(feature = "default-tier")]
+pub(crate) use fans::MixedModel;
+pub(crate) use fans::{BlockReader, BlockSize, Blocks, FanModel, TableModel, VertexCoder};
 pub use first_vertex::FirstVertex;
 pub use minimum_time::{MinimumTimeRendering, RenderStep, released_buffer_size};
 pub use sweep::buffer_bound;

@@ -14,6 +14,10 @@ pub(crate) struct Outlook {
     pub(crate) angle: u8,
 }
 
+#[cfg_attr(
+    not(feature = "default-tier"),
+    expect(dead_code, reason = "for that tier")
+)]
 impl Outlook {
     /// More than any `reach`.
     pub(crate) const REACHES: usize = 16;

@@ -4,7 +4,7 @@ use super::fan_model::{FanModel, Outlook};
 use super::lazy_tables::LazyTables;
 use super::model::{LANE, TableModel};
 use super::traversal::{FanTurn, Gap, Run};
-use crate::bits::{BitChance, Port, Weights, code_mixed, even_weights};
+use crate::bits::{BitChances, LogOdds, Port, Weights, code_mixed, even_weights};
 
 /// How many chances are mixed.
 const INPUTS: usize = 4;
@@ -14,6 +14,7 @@ const MOST_KNOWN: [u32; 3] = [9, 5, 7];
 const ROOTS: usize = 2 * 10;
 const FROMS: usize = 6;
 const TOS: usize = 8;
+const FEW_TOS: usize = 4;
 /// A larger surplus, or shortage, is all the same.
 const MOST_SURPLUS: i32 = 3;
 const SURPLUSES: usize = 7;
@@ -21,8 +22,8 @@ const SURPLUSES: usize = 7;
 /// How many chances each input has.
 const SIZES: [usize; INPUTS] = [
     ROOTS * FROMS * TOS,
-    ROOTS * SURPLUSES * TOS,
-    ROOTS * 4 * Outlook::REACHES,
+    ROOTS * SURPLUSES * FEW_TOS,
+    ROOTS * 2 * Outlook::REACHES,
     2 * Outlook::ANGLES * Outlook::REACHES,
 ];
 
@@ -30,8 +31,9 @@ const SIZES: [usize; INPUTS] = [
 #[derive(Debug)]
 pub(crate) struct MixedModel {
     /// By input and what it says: whether a vertex is new, and else whether the gap is closed.
-    chances: [Vec<[BitChance; 2]>; INPUTS],
+    chances: [Vec<BitChances>; INPUTS],
     weights: Vec<[Weights<INPUTS>; 2]>,
+    log_odds: LogOdds,
     /// Of turns, by direction, reach and what is beyond.
     turns: LazyTables,
     tables: TableModel,
@@ -50,7 +52,8 @@ impl FanModel for MixedModel {
 
     fn new() -> Self {
         Self {
-            chances: SIZES.map(|size| vec![[BitChance::EVEN; 2]; size]),
+            chances: SIZES.map(|size| vec![BitChances::EVEN; size]),
+            log_odds: LogOdds::new(),
             weights: vec![[even_weights(); 2]; ROOTS],
             turns: LazyTables::new(2 * 8 * 8 * 8),
             tables: TableModel::new(),
@@ -69,8 +72,8 @@ impl FanModel for MixedModel {
         let (reach, angle) = (usize::from(outlook.reach), usize::from(outlook.angle));
         let by = [
             (root * FROMS + known(1)) * TOS + known(2),
-            (root * SURPLUSES + surplus) * TOS + known(2),
-            (root * 4 + known(2).min(3)) * Outlook::REACHES + reach,
+            (root * SURPLUSES + surplus) * FEW_TOS + known(2).min(FEW_TOS - 1),
+            (root * 2 + known(2).min(1)) * Outlook::REACHES + reach,
             (backward * Outlook::ANGLES + angle) * Outlook::REACHES + reach,
         ];
         self.reach = outlook.reach;
@@ -80,10 +83,26 @@ impl FanModel for MixedModel {
 
         // Whether a vertex is new, and else whether the gap is closed.
         let is_new = run.new > 0;
-        if code_mixed(port, LANE, &mut chances, 0, new_weights, is_new) {
+        if code_mixed(
+            port,
+            LANE,
+            &self.log_odds,
+            &mut chances,
+            0,
+            new_weights,
+            is_new,
+        ) {
             return Run::ONE;
         }
-        let is_end = code_mixed(port, LANE, &mut chances, 1, end_weights, run.is_end);
+        let is_end = code_mixed(
+            port,
+            LANE,
+            &self.log_odds,
+            &mut chances,
+            1,
+            end_weights,
+            run.is_end,
+        );
         Run {
             new: 0,
             is_end,

@@ -19,6 +19,7 @@ mod fan_model;
 mod flat_faces;
 mod known_faces;
 mod lazy_tables;
+#[cfg(feature = "default-tier")]
 mod mixed_model;
 mod model;
 #[cfg(test)]
@@ -31,6 +32,7 @@ use crate::faces::Faces;
 use crate::permutation::{FaceOrder, VertexOrder};
 pub(crate) use blocks::{BlockReader, BlockSize, Blocks};
 pub(crate) use fan_model::FanModel;
+#[cfg(feature = "default-tier")]
 pub(crate) use mixed_model::MixedModel;
 pub(crate) use model::TableModel;
 pub(crate) use vertex_coder::VertexCoder;

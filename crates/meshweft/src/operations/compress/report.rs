@@ -125,6 +125,7 @@ fn order_name(keep: KeepOrder) -> Option<&'static str> {
 fn tier_name(tier: Tier) -> &'static str {
     match tier {
         Tier::Fast => "fast",
+        #[cfg(feature = "default-tier")]
         Tier::Default => "default",
     }
 }
