@@ -68,13 +68,13 @@ impl AdaptiveTable {
     pub(super) fn symbol(&self, number: u32) -> usize {
         #[expect(clippy::cast_possible_truncation, reason = "15 bits")]
         let number = number as i16;
-        // As they rise, those that begin later are the high bits; one more stands for the end.
-        let bits: [u16; SYMBOLS] = std::array::from_fn(|place| {
-            let is_later = -i16::from(self.begins[place] > number);
-            is_later.cast_unsigned() & (1 << place)
-        });
-        let later = bits.iter().fold(0, |all, bit| all | bit);
-        (u32::from(later) | 1 << SYMBOLS).trailing_zeros() as usize - 1
+        // By halves, without a branch, which could not be foreseen.
+        let mut symbol = 0;
+        for step in [8, 4, 2, 1] {
+            let begins_earlier = self.begins[(symbol + step) % SYMBOLS] <= number;
+            symbol += if begins_earlier { step } else { 0 };
+        }
+        symbol
     }
 
     /// A symbol came.

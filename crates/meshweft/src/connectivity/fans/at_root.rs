@@ -12,6 +12,17 @@ pub(super) struct RootFace {
     pub(super) face: u32,
 }
 
+impl RootFace {
+    /// `from`, or the other one.
+    #[inline]
+    fn corner(&self, slot: usize) -> u32 {
+        match slot {
+            0 => self.from,
+            _ => self.to,
+        }
+    }
+}
+
 /// What comes first among faces of one edge: those with new vertices, by their old numbers, then the others
 /// by their new numbers. A mesh that was decoded has the same order.
 pub(super) type Rank = u64;
@@ -21,7 +32,9 @@ pub(super) type Rank = u64;
 pub(super) struct AtRoot {
     faces: Vec<RootFace>,
     is_taken: Vec<bool>,
-    /// Faces by `from`, and by `to`: a corner and a place, rising.
+    /// How many are not taken.
+    left: usize,
+    /// Faces by `from`, and by `to`: a corner and a place, rising. Made where there are many, or several at a corner.
     by_corner: [Vec<(u32, u32)>; 2],
     /// Where a corner has several faces.
     ranked: Option<Ranked>,
@@ -52,20 +65,46 @@ impl AtRoot {
         self.rest.clear();
         self.passed = 0;
         self.ranked = None;
-        let mut has_twins = false;
-        for (slot, by_corner) in self.by_corner.iter_mut().enumerate() {
-            let corner = |face: &RootFace| [face.from, face.to][slot];
-            by_corner.clear();
-            by_corner.extend(self.faces.iter().map(corner).zip(0..));
-            by_corner.sort_unstable();
-            has_twins |= by_corner.windows(2).any(|pair| pair[0].0 == pair[1].0);
+        self.left = self.faces.len();
+        let is_short = self.is_short();
+        if !is_short {
+            self.sort_by_corner();
         }
+
+        // Whether a corner has several.
+        let has_twins = match is_short {
+            true => (1..self.faces.len()).any(|place| {
+                let RootFace { from, to, .. } = self.faces[place];
+                let mut before = self.faces[..place].iter();
+                before.any(|face| face.from == from || face.to == to)
+            }),
+            false => {
+                let twins = |by: &Vec<(u32, u32)>| by.windows(2).any(|pair| pair[0].0 == pair[1].0);
+                self.by_corner.iter().any(twins)
+            }
+        };
         if has_twins {
+            if is_short {
+                self.sort_by_corner();
+            }
             let mut ranked = Ranked::default();
             for (place, face) in (0..).zip(&self.faces) {
                 ranked.insert(place, *face, &rank);
             }
             self.ranked = Some(ranked);
+        }
+    }
+
+    /// Whether faces are found by looking at each.
+    fn is_short(&self) -> bool {
+        self.faces.len() <= 12
+    }
+
+    fn sort_by_corner(&mut self) {
+        for (slot, by_corner) in self.by_corner.iter_mut().enumerate() {
+            by_corner.clear();
+            by_corner.extend(self.faces.iter().map(|face| face.corner(slot)).zip(0..));
+            by_corner.sort_unstable();
         }
     }
 
@@ -82,6 +121,11 @@ impl AtRoot {
             let &(found, _, place) = at.next()?;
             return (found == corner).then_some(place);
         }
+        if self.is_short() {
+            let is_it = |face: &RootFace| face.corner(slot) == corner;
+            let place = self.faces.iter().position(is_it)?;
+            return (!self.is_taken[place]).then(|| index32(place));
+        }
         let by_corner = &self.by_corner[slot];
         let at = by_corner.partition_point(|entry| entry.0 < corner);
         let &(found, place) = by_corner.get(at)?;
@@ -90,6 +134,9 @@ impl AtRoot {
 
     /// The first face that is left.
     pub(super) fn first(&mut self, rank: impl Fn(u32) -> Rank) -> Option<u32> {
+        if self.left == 0 {
+            return None;
+        }
         if let Some(ranked) = &self.ranked {
             return ranked.rest.first().map(|&(.., place)| place);
         }
@@ -111,6 +158,7 @@ impl AtRoot {
     /// A face is written; its corners have ranks.
     pub(super) fn take(&mut self, place: u32, rank: impl Fn(u32) -> Rank) {
         self.is_taken[place as usize] = true;
+        self.left -= 1;
         if let Some(ranked) = &mut self.ranked {
             ranked.remove(place, self.faces[place as usize], &rank);
         }
