@@ -1,6 +1,6 @@
 //! The library's compressed meshes.
 
-use meshweft::compression::{CodeOptions, MeshCode, PositionCoding, Tier};
+use meshweft::compression::{CodeOptions, MeshCode, MeshDecoder, PositionCoding, Tier};
 use meshweft::geometry::Lattice;
 use meshweft::{Limits, Mesh};
 
@@ -39,13 +39,12 @@ impl Codec for Compressed {
     }
 
     fn decode(&self, bytes: &[u8]) -> Result<Output, String> {
-        let mesh = MeshCode::decode(bytes, Limits::default()).map_err(|error| error.to_string())?;
-        let positions = mesh.positions().iter();
-        #[expect(clippy::cast_possible_truncation, reason = "integers of 14 bits")]
-        let positions = positions.map(|position| position.map(|number| number as i32));
+        let mut decoder = MeshDecoder::new(Limits::default());
+        let read = decoder.push(bytes).and_then(|_| decoder.finish());
+        read.map_err(|error| error.to_string())?;
         Ok(Output {
-            positions: Positions::Triples(positions.collect()),
-            faces: mesh.faces().to_vec(),
+            positions: Positions::Floats(decoder.take_positions()),
+            faces: decoder.take_faces(),
         })
     }
 

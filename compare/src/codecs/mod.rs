@@ -51,6 +51,8 @@ pub enum Positions {
     None(usize),
     /// Three integers a vertex.
     Triples(Vec<[i32; 3]>),
+    /// The same as floating-point numbers.
+    Floats(Vec<[f32; 3]>),
     /// Three integers of 16 bits a vertex, filled up to 8 bytes as a vertex buffer needs them.
     Padded(Vec<[u16; 4]>),
 }
@@ -177,6 +179,7 @@ impl Output {
         match &self.positions {
             Positions::None(count) => *count,
             Positions::Triples(positions) => positions.len(),
+            Positions::Floats(positions) => positions.len(),
             Positions::Padded(positions) => positions.len(),
         }
     }
@@ -204,6 +207,11 @@ impl Output {
         }
         let positions = match (&self.positions, new_to_old) {
             (Positions::Triples(positions), _) => positions.clone(),
+            (Positions::Floats(positions), _) => {
+                #[expect(clippy::cast_possible_truncation, reason = "integers of 14 bits")]
+                let triple = |position: &[f32; 3]| position.map(|number| number as i32);
+                positions.iter().map(triple).collect()
+            }
             (Positions::Padded(positions), _) => {
                 let triple = |&[x, y, z, _]: &[u16; 4]| [x, y, z].map(i32::from);
                 positions.iter().map(triple).collect()
