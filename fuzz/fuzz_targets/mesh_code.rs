@@ -3,8 +3,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::{Limits, Mesh};
 use meshweft::compression::{MeshArchive, MeshCode, MeshDecoder};
+use meshweft::{Limits, Mesh};
 
 fuzz_target!(|data: &[u8]| {
     let mut limits = Limits::default();
