@@ -22,6 +22,8 @@ mod positions;
 mod ring;
 mod source_order;
 #[cfg(test)]
+mod test_vectors;
+#[cfg(test)]
 mod tests;
 
 pub use archive::MeshArchive;
