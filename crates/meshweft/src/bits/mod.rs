@@ -20,5 +20,5 @@ pub use error::{DecodeError, DecodeErrorKind};
 pub(crate) use logistic::LogOdds;
 #[cfg(feature = "default-tier")]
 pub(crate) use mixed_bit::{BitChances, Weights, code_mixed, even_weights};
-pub(crate) use number::NumberCoder;
+pub(crate) use number::{NumberCoder, code_more, code_rest};
 pub(crate) use rans::{Lane, MOST_BITS, Port, RansDecoder, RansEncoder};

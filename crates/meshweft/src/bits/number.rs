@@ -35,31 +35,46 @@ impl NumberCoder {
         let symbol = port.code(LANE, &self.lengths, length.min(MOST) as usize);
         self.lengths.see(symbol);
         length = match bits_of(symbol) {
-            MOST => MOST + self.more(port, length.wrapping_sub(MOST)),
+            MOST => MOST + code_more(port, LANE, &mut self.more, length.wrapping_sub(MOST)),
             length => length,
         };
 
-        // The bits after the first one, which is set.
-        let mut value = u32::from(length > 0);
-        let mut left = length.saturating_sub(1);
-        while left > 0 {
-            let count = left.min(MOST_BITS);
-            left -= count;
-            let bits = (number >> left) & ((1 << count) - 1);
-            value = value << count | port.bits(LANE, count, bits);
-        }
-        value
+        let first = u32::from(length > 0);
+        code_rest(port, LANE, first, length.saturating_sub(1), number)
     }
+}
 
-    /// How many more bits than 15 a number has: up to 17.
-    #[cold]
-    fn more(&mut self, port: &mut impl Port, more: u32) -> u32 {
-        let symbol = port.code(LANE, &self.more, more.min(MOST) as usize);
-        self.more.see(symbol);
-        match bits_of(symbol) {
-            MOST => (MOST + port.bits(LANE, 2, more.wrapping_sub(MOST) & 3)).min(17),
-            more => more,
-        }
+/// The lowest bits of a number after a first one, up to 15 at once.
+pub(crate) fn code_rest(
+    port: &mut impl Port,
+    lane: Lane,
+    first: u32,
+    count: u32,
+    number: u32,
+) -> u32 {
+    let (mut value, mut left) = (first, count);
+    while left > 0 {
+        let count = left.min(MOST_BITS);
+        left -= count;
+        let bits = (number >> left) & ((1 << count) - 1);
+        value = value << count | port.bits(lane, count, bits);
+    }
+    value
+}
+
+/// How many more bits than 15 a number has: up to 17.
+#[cold]
+pub(crate) fn code_more(
+    port: &mut impl Port,
+    lane: Lane,
+    table: &mut AdaptiveTable,
+    more: u32,
+) -> u32 {
+    let symbol = port.code(lane, table, more.min(MOST) as usize);
+    table.see(symbol);
+    match bits_of(symbol) {
+        MOST => (MOST + port.bits(lane, 2, more.wrapping_sub(MOST) & 3)).min(17),
+        more => more,
     }
 }
 

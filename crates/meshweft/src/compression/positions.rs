@@ -1,7 +1,7 @@
 //! Positions, each by how far it is from where its neighbours let it be expected.
 
 use super::ring::Ring;
-use crate::bits::{AdaptiveTable, Lane, MOST_BITS, Port, SYMBOLS};
+use crate::bits::{AdaptiveTable, Lane, MOST_BITS, Port, SYMBOLS, code_more, code_rest};
 use crate::connectivity::{BlockSize, FanModel, VertexCoder};
 use crate::index::index32;
 
@@ -137,7 +137,7 @@ impl<'a, C: Coordinate, M> Positions<'a, C, M> {
         let symbol = port.code(LANES[axis], table, length.min(MOST) as usize);
         table.see(symbol);
         match index32(symbol) {
-            MOST => MOST + more(&mut self.more, port, length.wrapping_sub(MOST)),
+            MOST => MOST + code_more(port, LANES[0], &mut self.more, length.wrapping_sub(MOST)),
             length => length,
         }
     }
@@ -179,30 +179,7 @@ fn rest_of(port: &mut impl Port, lengths: [u32; 3], numbers: [u32; 3]) -> [u32; 
             with_first(2, bits),
         ];
     }
-    [0, 1, 2].map(|axis| long_rest(port, first[axis], counts[axis], numbers[axis]))
-}
-
-/// The bits after the first one, which is set if there are any.
-fn long_rest(port: &mut impl Port, first: u32, count: u32, number: u32) -> u32 {
-    let (mut value, mut left) = (first, count);
-    while left > 0 {
-        let count = left.min(MOST_BITS);
-        left -= count;
-        let bits = (number >> left) & ((1 << count) - 1);
-        value = value << count | port.bits(LANES[0], count, bits);
-    }
-    value
-}
-
-/// How many more bits than 15 a number has: up to 17.
-#[cold]
-fn more(table: &mut AdaptiveTable, port: &mut impl Port, more: u32) -> u32 {
-    let symbol = port.code(LANES[0], table, more.min(MOST) as usize);
-    table.see(symbol);
-    match index32(symbol) {
-        MOST => (MOST + port.bits(LANES[0], 2, more.wrapping_sub(MOST) & 3)).min(17),
-        more => more,
-    }
+    [0, 1, 2].map(|axis| code_rest(port, LANES[0], first[axis], counts[axis], numbers[axis]))
 }
 
 impl<C: Coordinate, M: FanModel> VertexCoder for Positions<'_, C, M> {

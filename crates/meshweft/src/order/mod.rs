@@ -30,6 +30,8 @@ pub use optimizer::Optimizer;
 pub use search::tuning;
 pub use target::{Effort, ParseTargetError, Target};
 pub use turn_corners::turn_corners;
+#[cfg(feature = "files")]
+pub(crate) use vertex_blocks::by_first_use;
 pub(crate) use vertex_blocks::first_use_in_blocks;
 pub use vertex_blocks::vertex_blocks;
 pub use vertex_fetch::vertex_fetch;

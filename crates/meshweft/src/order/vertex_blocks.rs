@@ -122,7 +122,7 @@ pub(crate) fn first_use_in_blocks(faces: Faces<'_>) -> VertexOrder {
 }
 
 /// The vertices in the order of their first use, whatever their number.
-pub(super) fn by_first_use(faces: Faces<'_>) -> VertexOrder {
+pub(crate) fn by_first_use(faces: Faces<'_>) -> VertexOrder {
     let vertex_count = faces.vertex_count();
     let mut seen = vec![false; vertex_count];
     let mut new_to_old = Vec::with_capacity(vertex_count);

@@ -4,12 +4,9 @@ use crate::bits::DecodeError;
 use crate::compression::{MeshArchive, SourceOrder};
 use crate::connectivity::{WindowOrder, WindowSize};
 use crate::faces::Faces;
-use crate::first_use::FirstUse;
-use crate::index::index32;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
-use crate::order::InBatches;
-use crate::permutation::{Permutation, VertexOrder};
+use crate::order::{InBatches, by_first_use};
 
 /// How an archive is decompressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -81,23 +78,8 @@ fn in_order(mesh: &Mesh, order: &SourceOrder) -> Mesh {
     };
     let faces = order.faces().cloned().unwrap_or_else(windows);
     let drawn = mesh.with_face_order(&faces);
+    // Not in blocks as in a file that is optimized: those that a sweep meets together have near numbers already.
     let first_use = || by_first_use(Faces::from(&drawn));
     let vertices = order.vertices().cloned().unwrap_or_else(first_use);
     drawn.with_vertex_order(&vertices)
-}
-
-/// Not in blocks as in a file that is optimized: those that a sweep meets together have near numbers already.
-fn by_first_use(faces: Faces<'_>) -> VertexOrder {
-    let mut first_use = FirstUse::new(faces.vertex_count(), 3 * faces.len());
-    for &vertex in faces.as_slice().as_flattened() {
-        first_use.number(vertex);
-    }
-    let mut new_to_old = first_use.finish();
-    let mut is_used = vec![false; faces.vertex_count()];
-    for &vertex in &new_to_old {
-        is_used[vertex as usize] = true;
-    }
-    let all = 0..index32(faces.vertex_count());
-    new_to_old.extend(all.filter(|&vertex| !is_used[vertex as usize]));
-    Permutation::from_algorithm(new_to_old).into()
 }
