@@ -7,7 +7,7 @@ pub(crate) const SYMBOLS: usize = 16;
 pub(super) const PRECISION: u32 = 15;
 
 /// No frequency is below.
-const LEAST: i16 = 3;
+const LEAST: u16 = 3;
 
 /// What a symbol adds to its count. One that never came counts 1 at first.
 const WEIGHT: u16 = 28;
@@ -24,9 +24,10 @@ const LONGEST_WAIT: u16 = 64;
 /// Frequencies of 16 symbols by how often they came. They change after every symbol at first, then after more and more
 /// of them, so that a symbol takes few instructions: the next one does not wait for a change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(align(8))]
 pub(crate) struct AdaptiveTable {
-    /// Where each symbol begins; the first is 0.
-    begins: [i16; SYMBOLS],
+    /// Where each symbol begins, and where the last one ends; the first is 0.
+    begins: [u16; SYMBOLS + 1],
     counts: [u16; SYMBOLS],
     /// How many symbols come until the frequencies change, and how many came from the change before to the last one.
     left: u16,
@@ -36,9 +37,9 @@ pub(crate) struct AdaptiveTable {
 impl AdaptiveTable {
     /// All symbols alike.
     pub(crate) const EVEN: Self = {
-        let mut begins = [0; SYMBOLS];
+        let mut begins = [0; SYMBOLS + 1];
         let mut place = 1;
-        while place < SYMBOLS {
+        while place <= SYMBOLS {
             begins[place] = begins[place - 1] + (1 << (PRECISION - 4));
             place += 1;
         }
@@ -49,33 +50,6 @@ impl AdaptiveTable {
             wait: 1,
         }
     };
-
-    /// Where a symbol begins, and its frequency, which is never 0.
-    #[inline(always)]
-    pub(super) fn interval(&self, symbol: usize) -> Interval {
-        let number = |begin: i16| u32::from(begin.cast_unsigned());
-        let begin = number(self.begins[symbol]);
-        let next = self.begins.get(symbol + 1);
-        let end = next.map_or(1 << PRECISION, |&next| number(next));
-        Interval {
-            begin,
-            frequency: end - begin,
-        }
-    }
-
-    /// The symbol to which a number below the sum of frequencies belongs.
-    #[inline(always)]
-    pub(super) fn symbol(&self, number: u32) -> usize {
-        #[expect(clippy::cast_possible_truncation, reason = "15 bits")]
-        let number = number as i16;
-        // By halves, without a branch, which could not be foreseen.
-        let mut symbol = 0;
-        for step in [8, 4, 2, 1] {
-            let begins_earlier = self.begins[(symbol + step) % SYMBOLS] <= number;
-            symbol += if begins_earlier { step } else { 0 };
-        }
-        symbol
-    }
 
     /// A symbol came.
     #[inline(always)]
@@ -100,11 +74,11 @@ impl AdaptiveTable {
         }
 
         // Beyond the least frequencies, as many parts of 65,536 for each that was counted.
-        let above = (1 << PRECISION) - 16 * u32::from(LEAST.unsigned_abs());
+        let above = (1 << PRECISION) - 16 * u32::from(LEAST);
         let of_one = (above << 16) / total;
         let (mut before, mut least) = (0, 0);
         for (begin, &count) in self.begins.iter_mut().zip(&self.counts) {
-            let place = ((before * of_one) >> 16) as i16;
+            let place = ((before * of_one) >> 16) as u16;
             *begin = place + least;
             before += u32::from(count);
             least += LEAST;
@@ -129,21 +103,55 @@ impl AdaptiveTable {
             wait: 1,
         }
     }
+}
 
-    /// The mean of two tables.
-    #[inline]
-    pub(crate) fn with(&self, other: &Self) -> Self {
-        let mut mean = *self;
-        for (begin, other) in mean.begins.iter_mut().zip(&other.begins) {
-            *begin = (*begin >> 1) + (*other >> 1);
+impl Frequencies for AdaptiveTable {
+    #[inline(always)]
+    fn begin(&self, symbol: usize) -> u32 {
+        self.begins[symbol].into()
+    }
+}
+
+/// The mean of two tables.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mean<'a>(pub(crate) &'a AdaptiveTable, pub(crate) &'a AdaptiveTable);
+
+impl Frequencies for Mean<'_> {
+    #[inline(always)]
+    fn begin(&self, symbol: usize) -> u32 {
+        let Self(one, other) = self;
+        (one.begin(symbol) + other.begin(symbol)) / 2
+    }
+}
+
+/// Frequencies of 16 symbols, none of them 0.
+pub(crate) trait Frequencies {
+    /// Where a symbol begins, or for the number of symbols where the last one ends.
+    fn begin(&self, symbol: usize) -> u32;
+
+    #[inline(always)]
+    fn interval(&self, symbol: usize) -> Interval {
+        let begin = self.begin(symbol);
+        Interval {
+            begin,
+            frequency: self.begin(symbol + 1) - begin,
         }
-        mean
+    }
+
+    /// The symbol to which a number below the sum of frequencies belongs.
+    #[inline(always)]
+    fn symbol(&self, number: u32) -> usize {
+        // Among quarters, then within one, without a branch, which could not be foreseen.
+        let begins_earlier = |symbol: usize| usize::from(self.begin(symbol) <= number);
+        let quarter = begins_earlier(4) + begins_earlier(8) + begins_earlier(12);
+        let first = 4 * quarter;
+        first + begins_earlier(first + 1) + begins_earlier(first + 2) + begins_earlier(first + 3)
     }
 }
 
 /// Where a symbol is among the frequencies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Interval {
+pub(crate) struct Interval {
     pub(super) begin: u32,
     pub(super) frequency: u32,
 }
@@ -153,7 +161,7 @@ mod tests {
     use super::*;
     use crate::random::SplitMix64;
 
-    fn frequencies(table: &AdaptiveTable) -> [u32; SYMBOLS] {
+    fn frequencies(table: &impl Frequencies) -> [u32; SYMBOLS] {
         let mut end = 0;
         std::array::from_fn(|symbol| {
             let interval = table.interval(symbol);
@@ -175,7 +183,7 @@ mod tests {
                     false => random.below(SYMBOLS),
                 };
                 table.see(symbol);
-                let of = frequencies(&table.with(&AdaptiveTable::EVEN.child()));
+                let of = frequencies(&Mean(&table, &AdaptiveTable::EVEN.child()));
                 assert!(of.iter().all(|&frequency| frequency > 0));
             }
             assert!(frequencies(&table).iter().all(|&frequency| frequency > 0));

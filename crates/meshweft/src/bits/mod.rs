@@ -13,12 +13,12 @@ mod number;
 mod rans;
 pub(crate) mod varint;
 
-pub(crate) use adaptive_table::{AdaptiveTable, SYMBOLS};
+pub(crate) use adaptive_table::{AdaptiveTable, Mean, SYMBOLS};
 pub(crate) use checksum::crc32;
 pub use error::{DecodeError, DecodeErrorKind};
 #[cfg(feature = "default-tier")]
 pub(crate) use logistic::LogOdds;
 #[cfg(feature = "default-tier")]
 pub(crate) use mixed_bit::{BitChances, Weights, code_mixed, even_weights};
-pub(crate) use number::{NumberCoder, code_more, code_rest};
+pub(crate) use number::{NumberCoder, code_more, low_half};
 pub(crate) use rans::{Lane, MOST_BITS, Port, RansDecoder, RansEncoder};

@@ -1,7 +1,7 @@
 //! Numbers of any size as symbols and bits.
 
 use super::adaptive_table::{AdaptiveTable, SYMBOLS};
-use super::rans::{Lane, MOST_BITS, Port};
+use super::rans::{Lane, Port};
 
 /// The last symbol: this many bits or more.
 const MOST: u32 = {
@@ -39,27 +39,21 @@ impl NumberCoder {
             length => length,
         };
 
-        let first = u32::from(length > 0);
-        code_rest(port, LANE, first, length.saturating_sub(1), number)
+        if length == 0 {
+            return 0;
+        }
+        let rest = number & ((1 << (length - 1)) - 1);
+        let rest = port.bits(LANE, length - 1, rest.into());
+        1 << (length - 1) | low_half(rest)
     }
 }
 
-/// The lowest bits of a number after a first one, up to 15 at once.
-pub(crate) fn code_rest(
-    port: &mut impl Port,
-    lane: Lane,
-    first: u32,
-    count: u32,
-    number: u32,
-) -> u32 {
-    let (mut value, mut left) = (first, count);
-    while left > 0 {
-        let count = left.min(MOST_BITS);
-        left -= count;
-        let bits = (number >> left) & ((1 << count) - 1);
-        value = value << count | port.bits(lane, count, bits);
-    }
-    value
+/// The low half of some bits.
+#[inline(always)]
+pub(crate) fn low_half(bits: u64) -> u32 {
+    #[expect(clippy::cast_possible_truncation, reason = "the low half")]
+    let half = bits as u32;
+    half
 }
 
 /// How many more bits than 15 a number has: up to 17.
@@ -73,7 +67,10 @@ pub(crate) fn code_more(
     let symbol = port.code(lane, table, more.min(MOST) as usize);
     table.see(symbol);
     match bits_of(symbol) {
-        MOST => (MOST + port.bits(lane, 2, more.wrapping_sub(MOST) & 3)).min(17),
+        MOST => {
+            let bits = port.bits(lane, 2, u64::from(more.wrapping_sub(MOST) & 3));
+            (MOST + low_half(bits)).min(17)
+        }
         more => more,
     }
 }

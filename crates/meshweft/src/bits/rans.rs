@@ -3,16 +3,20 @@
 //!
 //! What is read forwards is written backwards, so all symbols are collected first. Symbols of different lanes do not wait
 //! for each other when they are read. All states begin with the same number when they are written, and must be back at it
-//! when everything is read.
+//! when everything is read. Bits that are as likely set as not are taken from words of their own, which come when they are
+//! needed.
 
-use super::adaptive_table::{AdaptiveTable, Interval, PRECISION};
+use super::adaptive_table::{Frequencies, Interval, PRECISION};
 use super::error::{DecodeError, DecodeErrorKind};
 
 /// States are at least this large.
 const LEAST: u32 = 1 << 16;
 
-/// Bits that are taken as they are at once.
-pub(crate) const MOST_BITS: u32 = PRECISION;
+/// The most bits that are taken as they are at once.
+pub(crate) const MOST_BITS: u32 = 45;
+
+/// How many words hold these bits.
+const MOST_WORDS: usize = 3;
 
 /// The most lanes.
 const LANES: usize = 4;
@@ -31,12 +35,15 @@ impl Lane {
 }
 
 /// Reads or writes a symbol by a table.
-pub(crate) trait Port {
-    /// The symbol that was read, or the one that was given.
-    fn code(&mut self, lane: Lane, table: &AdaptiveTable, symbol: usize) -> usize;
+pub(crate) trait Port: Sized {
+    /// Whether it writes.
+    const WRITES: bool;
 
-    /// Up to 15 bits that were read, or those that were given.
-    fn bits(&mut self, lane: Lane, count: u32, bits: u32) -> u32;
+    /// The symbol that was read, or the one that was given.
+    fn code(&mut self, lane: Lane, table: &impl Frequencies, symbol: usize) -> usize;
+
+    /// Up to [`MOST_BITS`] that were read, or those that were given; they count as a part of what the lane has.
+    fn bits(&mut self, lane: Lane, count: u32, bits: u64) -> u64;
 
     /// A bit that is set with a chance in parts of 32,768, neither 0 nor all.
     #[cfg_attr(
@@ -44,6 +51,12 @@ pub(crate) trait Port {
         expect(dead_code, reason = "for that tier")
     )]
     fn bit(&mut self, lane: Lane, chance: u32, is_set: bool) -> bool;
+
+    /// Does something with what a processor can keep in its registers: nothing else may refer to it.
+    #[inline(always)]
+    fn apart<R>(&mut self, act: impl FnOnce(&mut Self) -> R) -> R {
+        act(self)
+    }
 }
 
 /// The interval of a bit.
@@ -61,7 +74,10 @@ fn interval_of(chance: u32, is_set: bool) -> Interval {
 #[derive(Debug)]
 pub(crate) struct RansEncoder {
     /// Where each begins, its frequency in the bits from 15 on, its lane in the two highest.
+    /// Where it is 0, bits come.
     intervals: Vec<u32>,
+    /// Bits, and how many.
+    plain: Vec<(u64, u32)>,
     lanes: usize,
     /// About how many bits the symbols of each lane took, in parts of 65,536.
     parts: [u64; LANES],
@@ -76,6 +92,7 @@ impl RansEncoder {
         debug_assert!((1..=LANES).contains(&lanes));
         Self {
             intervals: Vec::new(),
+            plain: Vec::new(),
             lanes,
             parts: [0; LANES],
         }
@@ -98,10 +115,19 @@ impl RansEncoder {
         let low = |state: u32| state as u16;
         let mut states = [LEAST; LANES];
         let mut words: Vec<u16> = Vec::with_capacity(self.intervals.len() / 4 + 2 * LANES);
+        let (mut plain_words, fetched) = words_of(&self.plain);
+        let mut plain = self.plain.drain(..).zip(fetched).rev();
         for &interval in self.intervals.iter().rev() {
             let lane = (interval >> LANE_SHIFT) as usize;
             let frequency = interval >> PRECISION & ((1 << PRECISION) - 1);
             let begin = interval & ((1 << PRECISION) - 1);
+            if frequency == 0 {
+                let ((_, count), fetched) = plain.next().expect("bits that were pushed");
+                self.parts[lane] += u64::from(count) << 16;
+                let first = plain_words.len() - fetched;
+                words.extend(plain_words.drain(first..).rev());
+                continue;
+            }
             self.parts[lane] += bits_of(frequency);
 
             let state = &mut states[lane];
@@ -114,25 +140,57 @@ impl RansEncoder {
         for &state in states[..self.lanes].iter().rev() {
             words.extend([low(state), low(state >> 16)]);
         }
+        drop(plain);
         self.intervals.clear();
         let words = words.iter().rev();
         words.flat_map(|word| word.to_le_bytes()).collect()
     }
 }
 
+/// Words of some bits, the lowest first, and how many of them are fetched each time: no more than are needed.
+fn words_of(plain: &[(u64, u32)]) -> (Vec<u16>, Vec<usize>) {
+    let (mut words, mut fetched) = (Vec::new(), Vec::with_capacity(plain.len()));
+    // Bits of the last word that are not taken yet; those of the next one, and how many.
+    let (mut have, mut next, mut waiting) = (0, 0, 0);
+    for &(bits, count) in plain {
+        next |= bits << waiting;
+        waiting += count;
+        while waiting >= 16 {
+            words.push((next & 0xFFFF) as u16);
+            next >>= 16;
+            waiting -= 16;
+        }
+        let missing = words_for(count, have);
+        have = have + 16 * missing - count;
+        fetched.push(missing as usize);
+    }
+    if waiting > 0 {
+        words.push((next & 0xFFFF) as u16);
+    }
+    (words, fetched)
+}
+
+/// How many words are missing for a number of bits where there are some.
+#[inline(always)]
+fn words_for(count: u32, have: u32) -> u32 {
+    count.saturating_sub(have).div_ceil(16)
+}
+
 impl Port for RansEncoder {
+    const WRITES: bool = true;
+
     #[inline]
-    fn code(&mut self, lane: Lane, table: &AdaptiveTable, symbol: usize) -> usize {
+    fn code(&mut self, lane: Lane, table: &impl Frequencies, symbol: usize) -> usize {
         self.push(lane, table.interval(symbol));
         symbol
     }
 
     #[inline]
-    fn bits(&mut self, lane: Lane, count: u32, bits: u32) -> u32 {
-        debug_assert!((1..=MOST_BITS).contains(&count) && bits >> count == 0);
-        let frequency = 1 << (PRECISION - count);
-        let begin = bits * frequency;
+    fn bits(&mut self, lane: Lane, count: u32, bits: u64) -> u64 {
+        debug_assert!(count <= MOST_BITS && bits >> count == 0);
+        let (begin, frequency) = (0, 0);
         self.push(lane, Interval { begin, frequency });
+        self.plain.push((bits, count));
         bits
     }
 
@@ -160,6 +218,9 @@ pub(crate) struct RansDecoder {
     words: Vec<u16>,
     /// How many words were asked for.
     asked: usize,
+    /// Bits that were not taken of the last words, and how many: fewer than a word has.
+    plain: u64,
+    plain_count: u32,
     /// Whether there is a byte after the words.
     is_odd: bool,
 }
@@ -172,6 +233,8 @@ impl RansDecoder {
             lanes,
             words: Vec::new(),
             asked: 0,
+            plain: 0,
+            plain_count: 0,
             is_odd: false,
         }
     }
@@ -184,7 +247,7 @@ impl RansDecoder {
         self.words.reserve_exact(bytes.len() / 2);
         self.words
             .extend(words.map(|word| u16::from_le_bytes([word[0], word[1]])));
-        self.asked = 0;
+        (self.asked, self.plain, self.plain_count) = (0, 0, 0);
         for lane in 0..self.lanes {
             let high = self.word();
             self.states[lane] = high << 16 | self.word();
@@ -195,6 +258,14 @@ impl RansDecoder {
         let word = self.words.get(self.asked).copied().unwrap_or(0);
         self.asked += 1;
         u32::from(word)
+    }
+
+    /// The next three words, and 0 for those that are not there.
+    #[cold]
+    fn next_words(&self) -> u64 {
+        let next = self.words.get(self.asked..).unwrap_or(&[]);
+        let next = next.iter().take(MOST_WORDS).rev();
+        next.fold(0, |all, &word| all << 16 | u64::from(word))
     }
 
     /// What was next in a lane lies in an interval.
@@ -238,7 +309,7 @@ impl RansDecoder {
     /// Something is left, or what was read is not what was written.
     pub(crate) fn finish(&self) -> Result<(), DecodeError> {
         self.check()?;
-        let is_at_end = self.asked == self.words.len() && !self.is_odd;
+        let is_at_end = self.asked == self.words.len() && !self.is_odd && self.plain == 0;
         match is_at_end
             && self.states[..self.lanes]
                 .iter()
@@ -251,8 +322,18 @@ impl RansDecoder {
 }
 
 impl Port for RansDecoder {
+    const WRITES: bool = false;
+
     #[inline(always)]
-    fn code(&mut self, lane: Lane, table: &AdaptiveTable, _: usize) -> usize {
+    fn apart<R>(&mut self, act: impl FnOnce(&mut Self) -> R) -> R {
+        let mut own = std::mem::replace(self, Self::new(self.lanes));
+        let done = act(&mut own);
+        *self = own;
+        done
+    }
+
+    #[inline(always)]
+    fn code(&mut self, lane: Lane, table: &impl Frequencies, _: usize) -> usize {
         let number = self.states[lane.index()] & ((1 << PRECISION) - 1);
         let symbol = table.symbol(number);
         self.take(lane, table.interval(symbol));
@@ -260,13 +341,20 @@ impl Port for RansDecoder {
     }
 
     #[inline(always)]
-    fn bits(&mut self, lane: Lane, count: u32, _: u32) -> u32 {
-        debug_assert!((1..=MOST_BITS).contains(&count));
-        let frequency = 1 << (PRECISION - count);
-        let bits = (self.states[lane.index()] & ((1 << PRECISION) - 1)) >> (PRECISION - count);
-        let begin = bits * frequency;
-        self.take(lane, Interval { begin, frequency });
-        bits
+    fn bits(&mut self, _: Lane, count: u32, _: u64) -> u64 {
+        debug_assert!(count <= MOST_BITS);
+        // What is missing of them, without a branch, which could not be foreseen.
+        let missing = words_for(count, self.plain_count);
+        let next = self.words.get(self.asked..).and_then(<[u16]>::first_chunk);
+        let next = match next {
+            Some(&[a, b, c]) => u64::from(a) | u64::from(b) << 16 | u64::from(c) << 32,
+            None => self.next_words(),
+        };
+        self.asked += missing as usize;
+        let plain = self.plain | (next & ((1 << (16 * missing)) - 1)) << self.plain_count;
+        self.plain = plain >> count;
+        self.plain_count = self.plain_count + 16 * missing - count;
+        plain & ((1 << count) - 1)
     }
 
     #[inline(always)]
@@ -279,8 +367,9 @@ impl Port for RansDecoder {
 
 #[cfg(test)]
 mod tests {
-    use super::super::adaptive_table::SYMBOLS;
+    use super::super::adaptive_table::{AdaptiveTable, SYMBOLS};
     use super::*;
+    use crate::index::index32;
     use crate::random::SplitMix64;
 
     fn coded(symbols: &[usize]) -> Vec<u8> {
@@ -321,6 +410,38 @@ mod tests {
                 "{count}: {} bytes",
                 bytes.len()
             );
+        }
+    }
+
+    #[test]
+    fn plain_bits_come_back_between_symbols_and_cost_what_they_are() {
+        let mut random = SplitMix64(3);
+        for count in [0, 1, 2, 50, 3000] {
+            let taken: Vec<(u32, u64)> = (0..count)
+                .map(|_| {
+                    let length = index32(random.below(MOST_BITS as usize + 1));
+                    (length, random.next() & ((1 << length) - 1))
+                })
+                .collect();
+            let lane = |turn: usize| Lane::ALL[turn % LANES];
+            let (mut encoder, table) = (RansEncoder::new(LANES), AdaptiveTable::EVEN);
+            for (turn, &(length, bits)) in taken.iter().enumerate() {
+                encoder.bits(lane(turn), length, bits);
+                encoder.code(lane(turn), &table, turn % SYMBOLS);
+            }
+            let bytes = encoder.finish();
+
+            let mut decoder = RansDecoder::new(LANES);
+            decoder.begin(&bytes);
+            for (turn, &(length, bits)) in taken.iter().enumerate() {
+                assert_eq!(decoder.bits(lane(turn), length, 0), bits);
+                assert_eq!(decoder.code(lane(turn), &table, 0), turn % SYMBOLS);
+            }
+            decoder.finish().unwrap();
+            let bits: usize = taken.iter().map(|&(length, _)| length as usize + 4).sum();
+            assert!(bytes.len() <= bits.div_ceil(8) + 4 * LANES + 2);
+            let of_lanes: f64 = encoder.bits_of_lanes().iter().sum();
+            assert!((of_lanes - bits as f64).abs() < 0.01 * bits as f64 + 1.0);
         }
     }
 

@@ -1,17 +1,25 @@
 //! Positions, each by how far it is from where its neighbours let it be expected.
 
 use super::ring::Ring;
-use crate::bits::{AdaptiveTable, Lane, MOST_BITS, Port, SYMBOLS, code_more, code_rest};
+use crate::bits::{AdaptiveTable, Lane, MOST_BITS, Port, SYMBOLS, code_more, low_half};
 use crate::connectivity::{BlockSize, FanModel, VertexCoder};
 use crate::index::index32;
 
 /// The last symbol: this number or more.
 const MOST: u32 = {
     assert!(SYMBOLS == 16);
+    // The bits of three numbers are taken at once; a number with more than these has a bit that they have not.
+    assert!(3 * 15 <= MOST_BITS);
     15
 };
 /// The most that is told apart of how far neighbours were from where they were expected, in bits.
-const LEVELS: usize = 20;
+const MOST_LEVEL: u32 = 19;
+
+/// More than that: a power of two.
+const LEVELS: usize = 32;
+
+/// Where no vertex is looked at by what is coded next, so many are coded at once: what they are does not wait for faces.
+const MOST_LATER: usize = 256;
 
 /// Where coordinates are coded, by axis.
 const LANES: [Lane; 3] = [Lane::ALL[1], Lane::ALL[2], Lane::ALL[3]];
@@ -90,12 +98,27 @@ impl Coordinate for Exact {
 /// Where positions come from when they are written: by vertex of the source.
 pub(super) type Source<'a> = Option<&'a [[u32; 3]]>;
 
-/// What is kept of a vertex.
+/// What is kept of a vertex: its position, and by axis, from the lowest byte on, how many bits it was from where it was
+/// expected. All in one piece, as the next vertex often waits for it.
 #[derive(Debug, Clone, Copy, Default)]
-struct Near {
-    position: [u32; 3],
-    /// By axis, how many bits it was from where it was expected.
-    levels: [u8; 3],
+#[repr(align(16))]
+struct Near([u32; 4]);
+
+impl Near {
+    #[inline(always)]
+    fn new([x, y, z]: [u32; 3], lengths: [u32; 3]) -> Self {
+        let [a, b, c] = lengths.map(|length| length.min(MOST_LEVEL));
+        Self([x, y, z, a | b << 8 | c << 16])
+    }
+
+    /// By axis, the mean of its levels and another one's, rounded up.
+    #[inline(always)]
+    fn levels_with(self, other: Self) -> [usize; 3] {
+        let (own, others) = (self.0[3], other.0[3]);
+        let halves = ((own >> 1) & 0x7F_7F7F) + ((others >> 1) & 0x7F_7F7F);
+        let mean = halves + ((own | others) & 0x01_0101);
+        [mean, mean >> 8, mean >> 16].map(|mean| mean as usize % LEVELS)
+    }
 }
 
 /// Positions of vertices as they are met.
@@ -109,6 +132,8 @@ pub(super) struct Positions<'a, C, M> {
     more: AdaptiveTable,
     /// Those that were read, until they are taken.
     pub(super) read: Vec<[u32; 3]>,
+    /// Vertices that were put off: where each is expected, and its number in the source.
+    later: Vec<[u32; 4]>,
     kinds: std::marker::PhantomData<(C, M)>,
 }
 
@@ -120,26 +145,62 @@ impl<'a, C: Coordinate, M> Positions<'a, C, M> {
             levels: [[AdaptiveTable::EVEN; LEVELS]; 3],
             more: AdaptiveTable::EVEN,
             read: Vec::new(),
+            later: Vec::new(),
             kinds: std::marker::PhantomData,
         }
     }
 
     #[inline]
     fn point(&self, vertex: u32) -> [f64; 3] {
-        let [x, y, z] = self.near.get(vertex).position;
+        let [x, y, z, _] = self.near.get(vertex).0;
         [C::value(x), C::value(y), C::value(z)]
     }
 
-    /// How many bits the number of a difference has.
+    /// Codes the next vertex: its position is near those of three others.
     #[inline(always)]
-    fn length(&mut self, port: &mut impl Port, axis: usize, context: usize, length: u32) -> u32 {
-        let table = &mut self.levels[axis][context];
+    fn code_now<P: Port>(&mut self, port: &mut P, source: u32, near: [u32; 3]) -> [u32; 3] {
+        // What is expected.
+        let [a, b, c] = near.map(|vertex| self.near.get(vertex));
+        let expected = [0, 1, 2].map(|axis| C::complete(a.0[axis], b.0[axis], c.0[axis]));
+
+        // How far that is from what there is.
+        let mut numbers = [0; 3];
+        if P::WRITES
+            && let Some(source_of) = self.source
+        {
+            let given = source_of[source as usize];
+            numbers = [0, 1, 2].map(|axis| folded(given[axis].wrapping_sub(expected[axis])));
+        }
+        let levels = a.levels_with(b);
+        let lengths = [
+            self.length(port, 0, levels[0], numbers[0]),
+            self.length(port, 1, levels[1], numbers[1]),
+            self.length(port, 2, levels[2], numbers[2]),
+        ];
+        let numbers = numbers_of(port, lengths, numbers);
+        let position = [0, 1, 2].map(|axis| expected[axis].wrapping_add(unfolded(numbers[axis])));
+        self.near.push(near[0], Near::new(position, lengths));
+        position
+    }
+
+    /// How many bits one more than a number has after the first one.
+    #[inline(always)]
+    fn length(&mut self, port: &mut impl Port, axis: usize, level: usize, number: u32) -> u32 {
+        let table = &mut self.levels[axis][level];
+        let length = (u64::from(number) + 1).ilog2();
         let symbol = port.code(LANES[axis], table, length.min(MOST) as usize);
         table.see(symbol);
         match index32(symbol) {
-            MOST => MOST + code_more(port, LANES[0], &mut self.more, length.wrapping_sub(MOST)),
+            MOST => self.longer(port, length),
             length => length,
         }
+    }
+
+    /// A length that is the last symbol's or above.
+    #[cold]
+    fn longer(&mut self, port: &mut impl Port, length: u32) -> u32 {
+        let more = length.wrapping_sub(MOST);
+        MOST + port.apart(|port| code_more(port, LANES[0], &mut self.more, more))
     }
 }
 
@@ -155,31 +216,38 @@ fn unfolded(number: u32) -> u32 {
     (number >> 1) ^ (number & 1).wrapping_neg()
 }
 
-/// The bits after the first one of three numbers of some lengths.
+/// Three numbers, one more than which has some bits after the first one.
 #[inline(always)]
-fn rest_of(port: &mut impl Port, lengths: [u32; 3], numbers: [u32; 3]) -> [u32; 3] {
-    let counts = lengths.map(|length| length.saturating_sub(1));
-    let first = lengths.map(|length| u32::from(length > 0));
-    let total: u32 = counts.iter().sum();
-    let rest = |axis: usize| numbers[axis] & ((1 << counts[axis]) - 1);
-
-    // Mostly they are few enough to be taken at once.
-    if total <= MOST_BITS {
-        if total == 0 {
-            return first;
-        }
-        let [_, y, z] = counts;
-        let bits = (rest(0) << y | rest(1)) << z | rest(2);
-        let bits = port.bits(LANES[0], total, bits);
-        let with_first =
-            |axis: usize, bits: u32| first[axis] << counts[axis] | bits & ((1 << counts[axis]) - 1);
-        return [
-            with_first(0, bits >> (y + z)),
-            with_first(1, bits >> z),
-            with_first(2, bits),
-        ];
+fn numbers_of<P: Port>(port: &mut P, lengths: [u32; 3], numbers: [u32; 3]) -> [u32; 3] {
+    let [x, y, z] = lengths;
+    if x | y | z > MOST {
+        return long_numbers(port, lengths, numbers);
     }
-    [0, 1, 2].map(|axis| code_rest(port, LANES[0], first[axis], counts[axis], numbers[axis]))
+
+    // One more than a number is the first bit and the rest, so a number is this and the rest.
+    let least = lengths.map(|length| (1_u32 << length) - 1);
+    let mut bits = 0;
+    if P::WRITES {
+        let rest = [0, 1, 2].map(|axis| u64::from(numbers[axis] - least[axis]));
+        bits = rest[0] | rest[1] << x | rest[2] << (x + y);
+    }
+    let bits = port.bits(LANES[0], x + y + z, bits);
+    [
+        least[0] + (low_half(bits) & least[0]),
+        least[1] + (low_half(bits >> x) & least[1]),
+        least[2] + (low_half(bits >> (x + y)) & least[2]),
+    ]
+}
+
+#[cold]
+fn long_numbers(port: &mut impl Port, lengths: [u32; 3], numbers: [u32; 3]) -> [u32; 3] {
+    port.apart(|port| {
+        [0, 1, 2].map(|axis| {
+            let least = (1_u64 << lengths[axis]) - 1;
+            let rest = u64::from(numbers[axis]).wrapping_sub(least) & least;
+            low_half(least + port.bits(LANES[0], lengths[axis], rest))
+        })
+    })
 }
 
 impl<C: Coordinate, M: FanModel> VertexCoder for Positions<'_, C, M> {
@@ -192,35 +260,37 @@ impl<C: Coordinate, M: FanModel> VertexCoder for Positions<'_, C, M> {
     }
 
     #[inline]
-    fn code(&mut self, port: &mut impl Port, source: u32, near: [u32; 3]) {
-        // What is expected.
-        let [a, b, c] = match self.near.count() {
-            0 => [Near::default(); 3],
-            _ => near.map(|vertex| self.near.get(vertex)),
-        };
-        let given = self
-            .source
-            .map_or([0; 3], |source_of| source_of[source as usize]);
+    fn code<P: Port>(&mut self, port: &mut P, source: u32, near: [u32; 3]) {
+        if M::LOOKS {
+            let position = self.code_now(port, source, near);
+            if !P::WRITES {
+                self.read.push(position);
+            }
+            return;
+        }
+        let [a, b, c] = near;
+        self.later.push([a, b, c, source]);
+        if self.later.len() == MOST_LATER {
+            self.settle(port);
+        }
+    }
 
-        // How far that is from what there is.
-        let expected =
-            [0, 1, 2].map(|axis| C::complete(a.position[axis], b.position[axis], c.position[axis]));
-        let numbers = [0, 1, 2].map(|axis| folded(given[axis].wrapping_sub(expected[axis])));
-        let mut lengths = [0; 3];
-        for axis in 0..3 {
-            let context = usize::from((a.levels[axis] + b.levels[axis]).div_ceil(2));
-            let length = u32::BITS - numbers[axis].leading_zeros();
-            lengths[axis] = self.length(port, axis, context.min(LEVELS - 1), length);
+    #[inline(never)]
+    fn settle<P: Port>(&mut self, port: &mut P) {
+        let mut later = std::mem::take(&mut self.later);
+        port.apart(|port| {
+            for vertex in &mut later {
+                let [a, b, c, source] = *vertex;
+                let [x, y, z] = self.code_now(port, source, [a, b, c]);
+                *vertex = [x, y, z, 0];
+            }
+        });
+        if !P::WRITES {
+            self.read
+                .extend(later.iter().map(|&[x, y, z, _]| [x, y, z]));
         }
-        let numbers = rest_of(port, lengths, numbers);
-        let next = Near {
-            position: [0, 1, 2].map(|axis| expected[axis].wrapping_add(unfolded(numbers[axis]))),
-            levels: lengths.map(|length| length.to_le_bytes()[0]),
-        };
-        self.near.push(near[0], next);
-        if self.source.is_none() {
-            self.read.push(next.position);
-        }
+        later.clear();
+        self.later = later;
     }
 
     #[inline]

@@ -19,12 +19,6 @@ impl<T: Copy + Default> Ring<T> {
         }
     }
 
-    /// How many vertices there are.
-    #[inline]
-    pub(super) fn count(&self) -> u32 {
-        self.count
-    }
-
     /// The value of a vertex that is in a face with the root, or with one after it.
     #[inline]
     pub(super) fn get(&self, vertex: u32) -> T {

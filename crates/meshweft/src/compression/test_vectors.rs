@@ -8,12 +8,12 @@ use crate::mesh::Mesh;
 /// By tier, lossless and on a lattice.
 const PRINTED: [[&str; 2]; 2] = [
     [
-        "00 01 04 02 00 2f 00 3b 00 18 06 df 05 91 ff 02 00 df fb 88 02 bc 79 2c 87 14 db ff 7f ff ff ff ff ff ff ff 7f b0 fd 00 80 aa 80 00 80 08 82 e0 e3 00 7a 00 00",
-        "00 00 04 02 00 00 00 00 00 00 d0 3f 00 00 00 00 15 00 3b 00 18 06 25 00 7e 85 bb 42 fe 84 55 0e b5 00 c0 09 e0 e3",
+        "00 01 04 02 00 31 00 3b 00 18 06 af 00 8e fb 02 00 df fb 88 02 bc 79 38 e4 ac 4c 2a 00 2c 87 00 00 00 00 00 00 00 00 00 00 00 01 00 00 3f 01 00 00 3f 01 00 00 3d 00",
+        "00 00 04 02 00 00 00 00 00 00 d0 3f 00 00 00 00 15 00 3b 00 18 06 5d 42 3c 83 a3 42 2c 07 42 0e ef 00 38 e4 49 00",
     ],
     [
-        "01 01 04 02 00 2d 00 59 29 01 80 df 05 91 ff 02 00 df fb 88 02 bc 79 2c 87 14 db ff 7f ff ff ff ff ff ff ff 7f b0 fd 00 80 aa 80 00 80 08 82 00 7a 00 00",
-        "01 00 04 02 00 00 00 00 00 00 d0 3f 00 00 00 00 13 00 59 29 01 80 25 00 7e 85 bb 42 fe 84 55 0e b5 00 c0 09",
+        "01 01 04 02 00 2f 00 59 29 01 80 af 00 8e fb 02 00 df fb 88 02 bc 79 ac 4c 2a 00 2c 87 00 00 00 00 00 00 00 00 00 00 00 01 00 00 3f 01 00 00 3f 01 00 00 3d 00",
+        "01 00 04 02 00 00 00 00 00 00 d0 3f 00 00 00 00 13 00 59 29 01 80 5d 42 3c 83 a3 42 2c 07 42 0e ef 00 49 00",
     ],
 ];
 
@@ -54,7 +54,7 @@ fn the_streams_of_the_book_are_what_is_written() {
     let mut archive = MeshArchive::default();
     archive.push("a", &MeshCode::new(&mesh, &options).unwrap());
     let code = PRINTED[0][1];
-    let printed = format!("4d 57 5a 1a 01 01 01 26 61 {code} 8c f2 37 c6");
+    let printed = format!("4d 57 5a 1a 01 01 01 26 61 {code} 31 da 60 79");
     assert_eq!(hex(&archive.to_bytes()), printed);
 }
 

@@ -65,6 +65,7 @@ impl Blocks {
                 .go(block_size.0)
                 .expect("faces that were checked are there");
             let encoder = &mut traversal.fans;
+            encoder.settle();
             varint::write(&mut block, encoder.more.len() as u64);
             let mut last = first_root;
             for root in encoder.more.drain(..) {
@@ -88,6 +89,7 @@ impl Blocks {
                 for vertex in vertex..index32(end) {
                     encoder.code_vertex(vertex, [vertex.saturating_sub(1); 3]);
                 }
+                encoder.settle();
                 block.extend(encoder.port.finish());
                 append(&mut bytes, &mut block);
                 vertex = index32(end);
@@ -275,7 +277,8 @@ impl<V: VertexCoder> BlockReader<V> {
         let begins = block.len() - rest.len();
         fans.port.begin(rest);
         let read = self.traversal.go(self.block_size.0);
-        let fans = &self.traversal.fans;
+        let fans = &mut self.traversal.fans;
+        fans.settle();
         let read = read.and_then(|()| match fans.passed == fans.more.len() {
             true => fans.port.finish(),
             false => Err(fans.port.error(DecodeErrorKind::Damaged)),
@@ -295,6 +298,7 @@ impl<V: VertexCoder> BlockReader<V> {
             fans.vertex(vertex, [vertex.saturating_sub(1); 3]);
             fans.check()?;
         }
+        fans.settle();
         self.apart_read += count;
         fans.port.finish()
     }

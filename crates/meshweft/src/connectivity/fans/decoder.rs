@@ -31,6 +31,12 @@ impl<V: VertexCoder> FanDecoder<V> {
     }
 }
 
+impl<V: VertexCoder> FanDecoder<V> {
+    pub(super) fn settle(&mut self) {
+        self.at_vertices.settle(&mut self.port);
+    }
+}
+
 impl<V: VertexCoder> Fans for FanDecoder<V> {
     fn begin_part(&mut self) {}
 

@@ -80,6 +80,10 @@ impl<'a, V: VertexCoder> FanEncoder<'a, V> {
         self.at_vertices.code(&mut self.port, source, near);
     }
 
+    pub(super) fn settle(&mut self) {
+        self.at_vertices.settle(&mut self.port);
+    }
+
     /// The vertex to which a face leads.
     fn led_to(&self, gap: &Gap, place: u32) -> u32 {
         let RootFace { from, to, .. } = self.at_root.face(place);

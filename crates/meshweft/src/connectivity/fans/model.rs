@@ -3,13 +3,16 @@
 use super::fan_model::{FanModel, Outlook};
 use super::lazy_tables::LazyTables;
 use super::traversal::{FanTurn, Gap, Run};
-use crate::bits::{AdaptiveTable, Lane, Port, SYMBOLS};
+use crate::bits::{AdaptiveTable, Lane, Mean, NumberCoder, Port};
 use crate::index::index32;
 
-/// More known faces at a root, at the first neighbour and at the other end are all the same.
-const MOST_KNOWN: [u32; 3] = [10, 6, 8];
-/// A larger surplus, or shortage, is all the same.
-const MOST_SURPLUS: i32 = 3;
+/// More known faces at a root are all the same.
+const MOST_AT_ROOT: u32 = 10;
+/// More known faces at the vertex from which faces go on are all the same for a turn.
+const MOST_AT_TURN: u32 = 6;
+/// How many kinds of surplus are told apart, and of ends of a gap.
+const SURPLUSES: usize = 3;
+const ENDS: usize = 6;
 /// Faces are coded in a lane of their own.
 pub(super) const LANE: Lane = Lane::ALL[0];
 
@@ -18,20 +21,19 @@ pub(super) const LANE: Lane = Lane::ALL[0];
 pub(crate) struct TableModel {
     /// Of runs, by how many faces the root has.
     by_root: Vec<AdaptiveTable>,
-    /// The same, by both ends of the gap too.
+    /// The same, by the surplus and both ends of the gap too. With more kinds of them, most meshes have too few faces of
+    /// each kind to learn from.
     by_ends: LazyTables,
-    /// The same, by the surplus and one end.
-    by_surplus: LazyTables,
     /// Of turns, by direction.
     turns: [AdaptiveTable; 2],
-    /// The same, by both ends of the gap too.
-    turns_by_ends: LazyTables,
+    /// The same, by the faces known where they go on.
+    turns_by_from: LazyTables,
     /// Whether a vertex is new.
     newness: AdaptiveTable,
     /// Which vertex, if it is near one of the ends.
     nearness: AdaptiveTable,
-    /// How many bits a number has, beyond 15 by the second.
-    lengths: [AdaptiveTable; 2],
+    /// How far a vertex is before the last one, if it is near none of the ends.
+    far: NumberCoder,
 }
 
 impl FanModel for TableModel {
@@ -39,48 +41,37 @@ impl FanModel for TableModel {
     const LOOKS: bool = false;
 
     fn new() -> Self {
-        let [root, from, to] = MOST_KNOWN.map(|most| most as usize);
-        let surplus = 2 * MOST_SURPLUS.unsigned_abs() as usize + 1;
+        let roots = 2 * MOST_AT_ROOT as usize;
         Self {
-            by_root: vec![AdaptiveTable::EVEN; 2 * root],
-            by_ends: LazyTables::new(2 * root * from * (to + 1)),
-            by_surplus: LazyTables::new(2 * root * surplus * (to + 1)),
+            by_root: vec![AdaptiveTable::EVEN; roots],
+            by_ends: LazyTables::new(roots * SURPLUSES * ENDS),
             turns: [AdaptiveTable::EVEN; 2],
-            turns_by_ends: LazyTables::new(2 * (from + 1) * (to + 1)),
+            turns_by_from: LazyTables::new(2 * (MOST_AT_TURN as usize + 1)),
             newness: AdaptiveTable::EVEN,
             nearness: AdaptiveTable::EVEN,
-            lengths: [AdaptiveTable::EVEN; 2],
+            far: NumberCoder::NEW,
         }
     }
 
-    /// A run; the mean of two tables says what is likely.
     #[inline]
     fn run(&mut self, port: &mut impl Port, gap: &Gap, _: Outlook, run: Run) -> Run {
-        // Which tables.
-        let place = |side: usize| gap.known[side].clamp(1, MOST_KNOWN[side]) as usize - 1;
-        let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
-        let tos = tos + 1;
-        let to = gap.known[2].min(MOST_KNOWN[2]) as usize;
-        let root = usize::from(gap.is_backward) * MOST_KNOWN[0] as usize + place(0);
-        let surplus = gap.surplus.clamp(-MOST_SURPLUS, MOST_SURPLUS) + MOST_SURPLUS;
-        let surpluses = 2 * MOST_SURPLUS.unsigned_abs() as usize + 1;
-        let by_surplus = (root * surpluses + surplus.unsigned_abs() as usize) * tos + to;
-
+        // Which table.
+        let [at_root, from, to] = gap.known;
+        let at_root = at_root.clamp(1, MOST_AT_ROOT) - 1;
+        let root = 2 * at_root as usize + usize::from(gap.is_backward);
+        let surplus = 1 + gap.surplus.signum();
+        let ends = 3 * usize::from(from > 4) + usize::from(to > 2) + usize::from(to > 4);
+        let place = (root * SURPLUSES + surplus.unsigned_abs() as usize) * ENDS + ends;
         let parent = &mut self.by_root[root];
-        let by_ends = (root * froms + place(1)) * tos + to;
-        let ends = self.by_ends.get_or_insert_with(by_ends, || parent.child());
-        let surplus = self
-            .by_surplus
-            .get_or_insert_with(by_surplus, || parent.child());
+        let table = self.by_ends.get_or_insert_with(place, || parent.child());
 
         // The symbol.
         let symbol = 2 * run.new.min(Self::MOST_NEW) + usize::from(run.is_end);
-        let symbol = port.code(LANE, &ends.with(surplus), symbol);
-        if ends.is_young() {
+        let symbol = port.code(LANE, table, symbol);
+        if table.is_young() {
             parent.see(symbol);
         }
-        ends.see(symbol);
-        surplus.see(symbol);
+        table.see(symbol);
         Run {
             new: symbol / 2,
             is_end: symbol % 2 == 1,
@@ -109,7 +100,7 @@ impl FanModel for TableModel {
         match index32(near) {
             near @ 0..8 => root + 1 + near,
             near @ 8..15 => (count - 1).wrapping_sub(near - 8),
-            _ => (count - 1).wrapping_sub(self.number(port, before_last)),
+            _ => (count - 1).wrapping_sub(self.far.code(port, before_last)),
         }
     }
 
@@ -138,19 +129,17 @@ impl TableModel {
         turn: usize,
     ) -> FanTurn {
         let backward = usize::from(gap.is_backward);
-        let [_, froms, tos] = MOST_KNOWN.map(|most| most as usize);
-        let from = gap.known[1].min(MOST_KNOWN[1]) as usize;
-        let to = gap.known[2].min(MOST_KNOWN[2]) as usize;
+        let from = gap.known[1].min(MOST_AT_TURN);
+        let place = 2 * from as usize + backward;
         let parent = &mut self.turns[backward];
-        let by_ends = (backward * (froms + 1) + from) * (tos + 1) + to;
         let table = self
-            .turns_by_ends
-            .get_or_insert_with(by_ends, || parent.child());
+            .turns_by_from
+            .get_or_insert_with(place, || parent.child());
         let turn = match other {
             None => port.code(LANE, table, turn),
             Some((others, place)) => {
                 let other = others.get_or_insert_with(place, || parent.child());
-                let turn = port.code(LANE, &table.with(other), turn);
+                let turn = port.code(LANE, &Mean(table, other), turn);
                 other.see(turn);
                 turn
             }
@@ -160,34 +149,5 @@ impl TableModel {
         }
         table.see(turn);
         FanTurn::ALL.get(turn).copied().unwrap_or(FanTurn::Stop)
-    }
-
-    /// A number: how many bits follow the first one that is set in it plus one, then these.
-    fn number(&mut self, port: &mut impl Port, number: u32) -> u32 {
-        let above = u64::from(number) + 1;
-        let mut length = above.ilog2() as usize;
-        let most = SYMBOLS - 1;
-        let short = port.code(LANE, &self.lengths[0], length.min(most));
-        self.lengths[0].see(short);
-        length = match short == most {
-            true => {
-                let more = port.code(LANE, &self.lengths[1], length.saturating_sub(most));
-                self.lengths[1].see(more);
-                most + more
-            }
-            false => short,
-        };
-
-        // Four bits a symbol, the last ones first.
-        let mut value = 0_u64;
-        for shift in (0..length).step_by(4) {
-            let width = (length - shift).min(4);
-            let bits = (above >> shift) & ((1 << width) - 1);
-            let bits = usize::try_from(bits).unwrap_or(0);
-            let bits = port.code(LANE, &AdaptiveTable::EVEN, bits << (4 - width)) >> (4 - width);
-            value |= (bits as u64) << shift;
-        }
-        let value = (value | 1 << length) - 1;
-        u32::try_from(value).unwrap_or(u32::MAX)
     }
 }

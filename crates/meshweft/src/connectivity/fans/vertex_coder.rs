@@ -17,7 +17,10 @@ pub(crate) trait VertexCoder {
     /// Codes what belongs to the next vertex: to one of the source for who writes. It lies opposite to the third
     /// of three vertices across the edge of the first and second, as far as that is known. For the first vertex of
     /// all, they are itself.
-    fn code(&mut self, port: &mut impl Port, source: u32, near: [u32; 3]);
+    fn code<P: Port>(&mut self, port: &mut P, source: u32, near: [u32; 3]);
+
+    /// Codes what was put off, if anything was.
+    fn settle<P: Port>(&mut self, _port: &mut P) {}
 
     /// About this number of vertices comes next.
     fn expect(&mut self, _vertices: usize) {}
@@ -68,7 +71,7 @@ impl VertexCoder for () {
     const LANES: usize = 0;
 
     #[inline]
-    fn code(&mut self, _: &mut impl Port, _: u32, _: [u32; 3]) {}
+    fn code<P: Port>(&mut self, _: &mut P, _: u32, _: [u32; 3]) {}
 
     fn reach(&self, _: [u32; 2], _: u32, _: u32) -> u8 {
         0
