@@ -2,7 +2,7 @@
 
 use super::ring::Ring;
 use crate::bits::{AdaptiveTable, Lane, MOST_BITS, Port, SYMBOLS, code_more, low_half};
-use crate::connectivity::{BlockSize, FanModel, VertexCoder};
+use crate::connectivity::{BlockSize, FanModel, Outlook, VertexCoder};
 use crate::index::index32;
 
 /// The last symbol: this number or more.
@@ -32,8 +32,8 @@ pub(super) trait Coordinate {
     /// What completes a parallelogram: `a + b - c`.
     fn complete(a: u32, b: u32, c: u32) -> u32;
 
-    /// What the number stands for, but for its unit and a shift.
-    fn value(number: u32) -> f64;
+    /// What one number stands for beyond another, in some unit.
+    fn difference(number: u32, other: u32) -> f64;
 }
 
 /// Multiples of a step, two to the power of 32 being 0.
@@ -49,8 +49,8 @@ impl Coordinate for OnLattice {
     }
 
     #[inline]
-    fn value(number: u32) -> f64 {
-        number.into()
+    fn difference(number: u32, other: u32) -> f64 {
+        number.wrapping_sub(other).cast_signed().into()
     }
 }
 
@@ -90,8 +90,8 @@ impl Coordinate for Exact {
     }
 
     #[inline]
-    fn value(number: u32) -> f64 {
-        Self::coordinate(number).into()
+    fn difference(number: u32, other: u32) -> f64 {
+        f64::from(Self::coordinate(number)) - f64::from(Self::coordinate(other))
     }
 }
 
@@ -150,10 +150,23 @@ impl<'a, C: Coordinate, M> Positions<'a, C, M> {
         }
     }
 
+    /// The way from one vertex to another.
     #[inline]
-    fn point(&self, vertex: u32) -> [f64; 3] {
-        let [x, y, z, _] = self.near.get(vertex).0;
-        [C::value(x), C::value(y), C::value(z)]
+    fn way(&self, from: u32, to: u32) -> [f64; 3] {
+        let [from, to] = [from, to].map(|vertex| self.near.get(vertex).0);
+        [0, 1, 2].map(|axis| C::difference(to[axis], from[axis]))
+    }
+
+    /// How far a vertex is from where a new one would be expected beyond an edge.
+    #[inline]
+    fn reach_beyond(&self, [root, from]: [u32; 2], edge: [f64; 3], across: u32, vertex: u32) -> u8 {
+        let [root, from, across, vertex] =
+            [root, from, across, vertex].map(|vertex| self.near.get(vertex).0);
+        let way = [0, 1, 2].map(|axis| {
+            let expected = C::complete(from[axis], root[axis], across[axis]);
+            C::difference(vertex[axis], expected)
+        });
+        steps(dot(way, way), dot(edge, edge))
     }
 
     /// Codes the next vertex: its position is near those of three others.
@@ -295,31 +308,19 @@ impl<C: Coordinate, M: FanModel> VertexCoder for Positions<'_, C, M> {
 
     #[inline]
     fn reach(&self, [root, from]: [u32; 2], across: u32, vertex: u32) -> u8 {
-        let [root, from, across, vertex] = [
-            self.point(root),
-            self.point(from),
-            self.point(across),
-            self.point(vertex),
-        ];
-        let mut way = [0.0; 3];
-        for axis in 0..3 {
-            way[axis] = vertex[axis] - (from[axis] + root[axis] - across[axis]);
-        }
-        let edge = minus(from, root);
-        steps(dot(way, way), dot(edge, edge))
+        self.reach_beyond([root, from], self.way(root, from), across, vertex)
     }
 
     #[inline]
-    fn angle(&self, [at, one, other]: [u32; 3]) -> u8 {
-        let at = self.point(at);
-        let [one, other] = [minus(self.point(one), at), minus(self.point(other), at)];
-        steps_of_angle(dot(one, other), dot(one, one) * dot(other, other))
+    fn outlook(&self, [root, from, to]: [u32; 3], across: Option<u32>) -> Outlook {
+        let (edge, other) = (self.way(root, from), self.way(root, to));
+        Outlook {
+            reach: across.map_or(0, |across| {
+                self.reach_beyond([root, from], edge, across, to)
+            }),
+            angle: steps_of_angle(dot(edge, other), dot(edge, edge) * dot(other, other)),
+        }
     }
-}
-
-#[inline]
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline]

@@ -33,7 +33,7 @@ mod window_tests;
 pub use fans::FanCode;
 #[cfg(feature = "default-tier")]
 pub(crate) use fans::MixedModel;
-pub(crate) use fans::{BlockReader, BlockSize, Blocks, FanModel, TableModel, VertexCoder};
+pub(crate) use fans::{BlockReader, BlockSize, Blocks, FanModel, Outlook, TableModel, VertexCoder};
 pub use first_vertex::FirstVertex;
 pub use minimum_time::{MinimumTimeRendering, RenderStep, released_buffer_size};
 pub use sweep::buffer_bound;

@@ -31,7 +31,7 @@ use crate::bits::{DecodeError, DecodeErrorKind};
 use crate::faces::Faces;
 use crate::permutation::{FaceOrder, VertexOrder};
 pub(crate) use blocks::{BlockReader, BlockSize, Blocks};
-pub(crate) use fan_model::FanModel;
+pub(crate) use fan_model::{FanModel, Outlook};
 #[cfg(feature = "default-tier")]
 pub(crate) use mixed_model::MixedModel;
 pub(crate) use model::TableModel;

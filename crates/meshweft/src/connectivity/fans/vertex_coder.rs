@@ -29,8 +29,8 @@ pub(crate) trait VertexCoder {
     /// vertices come first, then the third vertex of the known face there.
     fn reach(&self, edge: [u32; 2], across: u32, vertex: u32) -> u8;
 
-    /// The angle at the first of three vertices, as [`Outlook::angle`].
-    fn angle(&self, vertices: [u32; 3]) -> u8;
+    /// How a gap's root and both ends lie, the third vertex of the known face at its edge being known or not.
+    fn outlook(&self, gap: [u32; 3], across: Option<u32>) -> Outlook;
 }
 
 /// How the vertices of a gap lie, if the model asks for it.
@@ -39,10 +39,8 @@ pub(super) fn outlook<V: VertexCoder>(at_vertices: &V, gap: &Gap, known: &KnownF
     if !V::Model::LOOKS {
         return Outlook::default();
     }
-    Outlook {
-        reach: reach(at_vertices, gap, gap.across(known), gap.to),
-        angle: at_vertices.angle([gap.root, gap.from, gap.to]),
-    }
+    let across = Some(gap.across(known)).filter(|&across| across != NONE);
+    at_vertices.outlook([gap.root, gap.from, gap.to], across)
 }
 
 /// As [`Outlook::reach`], of the neighbours on the front before and after the gap.
@@ -77,7 +75,7 @@ impl VertexCoder for () {
         0
     }
 
-    fn angle(&self, _: [u32; 3]) -> u8 {
-        0
+    fn outlook(&self, _: [u32; 3], _: Option<u32>) -> Outlook {
+        Outlook::default()
     }
 }
