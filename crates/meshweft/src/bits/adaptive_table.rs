@@ -19,7 +19,7 @@ const MOST_SEEN: u16 = 500;
 const YOUNG_WAIT: u16 = 9;
 
 /// The most symbols from one change of the frequencies to the next.
-const LONGEST_WAIT: u16 = 64;
+const LONGEST_WAIT: u16 = 128;
 
 /// Frequencies of 16 symbols by how often they came. They change after every symbol at first, then after more and more
 /// of them, so that a symbol takes few instructions: the next one does not wait for a change.

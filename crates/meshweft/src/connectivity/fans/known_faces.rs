@@ -49,7 +49,7 @@ struct VertexPaths {
     /// Its first path.
     path: Path,
     /// How many faces its neighbours have that were the root, over six each.
-    surplus: i8,
+    surplus: i32,
 }
 
 /// The open paths of all vertices that were met and were not the root yet, and of the root. A path that closes is
@@ -166,16 +166,16 @@ impl KnownFaces {
     /// How many faces its neighbours have that were the root, over six each.
     #[inline]
     pub(super) fn surplus(&self, vertex: u32) -> i32 {
-        i32::from(self.around[self.place(vertex)].surplus)
+        self.around[self.place(vertex)].surplus
     }
 
     /// A neighbour that was the root has some faces over six.
     #[inline]
-    pub(super) fn add_surplus(&mut self, vertex: u32, over: i8) {
+    pub(super) fn add_surplus(&mut self, vertex: u32, over: i32) {
         if self.is_kept(vertex) {
             let place = self.place(vertex);
             let surplus = &mut self.around[place].surplus;
-            *surplus = surplus.saturating_add(over);
+            *surplus = surplus.wrapping_add(over);
         }
     }
 

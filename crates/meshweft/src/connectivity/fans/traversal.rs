@@ -241,7 +241,7 @@ impl<F: Fans> Traversal<F> {
 
         // How many faces it has is worth knowing at its neighbours.
         let faces = known as usize + (left - self.faces_left);
-        let over = i8::try_from(faces.min(12)).unwrap_or(0) - 6;
+        let over = index32(faces.min(12)).cast_signed() - 6;
         let new = first_new..self.known.vertex_count();
         for neighbour in self.named.drain(..).chain(new) {
             self.known.add_surplus(neighbour, over);
