@@ -7,6 +7,8 @@ mod data;
 mod disk;
 #[path = "files_create/plain.rs"]
 mod plain;
+#[path = "files_create/polygons.rs"]
+mod polygons;
 #[path = "files_create/real.rs"]
 mod real;
 #[path = "files_create/refused.rs"]

@@ -2,11 +2,13 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use super::error::{FileErrorKind, Place, Problem};
 use super::format::Format;
 use crate::attribute::{Attribute, ComponentType, Domain, Semantic};
 use crate::faces::Faces;
+use crate::index::index32;
 
 /// A mesh to be added to a document, or to make one of: see
 /// [`Document::create`](super::Document::create).
@@ -21,6 +23,7 @@ use crate::faces::Faces;
 /// | OFF | one, without its name | 32-bit positions, finite |
 /// | STL, binary | one; its name in the header | 32-bit positions of the corners, bit for bit, and normals |
 ///
+/// - OBJ, PLY and OFF keep [polygons](Self::polygons), the others their triangles.
 /// - Text has the shortest digits that read back as the same float.
 /// - A name is kept on its line: control characters become `_`, and in an OBJ `#` and a `\` at the end.
 ///   Unnamed meshes of several in an OBJ are called `mesh_0` and so on, by their number.
@@ -53,6 +56,9 @@ pub struct NewMesh<'a> {
     pub vertices: NewVertices<'a>,
     /// The three vertices of each face.
     pub faces: &'a [[u32; 3]],
+    /// Where the faces of each polygon start, and where the last ones end, or `None` where each is one triangle. The faces
+    /// of a polygon are a fan around its first corner: (0, 1, 2), (0, 2, 3) …
+    pub polygons: Option<&'a [u32]>,
 }
 
 impl<'a> NewMesh<'a> {
@@ -63,7 +69,25 @@ impl<'a> NewMesh<'a> {
             name,
             vertices,
             faces,
+            polygons: None,
         }
+    }
+
+    /// The same mesh, its faces cut from these [`polygons`](Self::polygons).
+    #[must_use]
+    pub fn with_polygons(self, starts: &'a [u32]) -> Self {
+        Self {
+            polygons: Some(starts),
+            ..self
+        }
+    }
+
+    /// The corners of each polygon, one after the other: see [`polygons`](Self::polygons).
+    ///
+    /// # Errors
+    /// The polygons are not all the faces, or one of them is no fan.
+    pub(super) fn checked_polygons(&self) -> Result<PolygonCorners<'a>, FileErrorKind> {
+        PolygonCorners::new(self.faces, self.polygons)
     }
 
     /// A mesh of which nothing is known but the position of each vertex and the faces.
@@ -78,6 +102,67 @@ impl<'a> NewMesh<'a> {
             number,
             name: self.name.to_owned(),
         }
+    }
+}
+
+/// The corners of the polygons of a new mesh.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PolygonCorners<'a> {
+    faces: &'a [[u32; 3]],
+    starts: Option<&'a [u32]>,
+}
+
+impl<'a> PolygonCorners<'a> {
+    fn new(faces: &'a [[u32; 3]], starts: Option<&'a [u32]>) -> Result<Self, FileErrorKind> {
+        let polygons = Self { faces, starts };
+        let Some(starts) = starts else {
+            return Ok(polygons);
+        };
+        let ends = starts.first().zip(starts.last());
+        let rises = starts.windows(2).all(|ends| ends[0] < ends[1]);
+        if ends != Some((&0, &index32(faces.len()))) || !rises {
+            return Err(FileErrorKind::unsupported(
+                "polygons must start at 0, rise, and end at the number of faces",
+            ));
+        }
+        let is_fan = |polygon: usize| {
+            let fan = &faces[polygons.faces_of(polygon)];
+            let follows = |pair: &[[u32; 3]]| [pair[1][0], pair[1][1]] == [pair[0][0], pair[0][2]];
+            fan.windows(2).all(follows)
+        };
+        match (0..polygons.len()).find(|&polygon| !is_fan(polygon)) {
+            None => Ok(polygons),
+            Some(polygon) => Err(FileErrorKind::unsupported(format!(
+                "the faces of polygon {polygon} are not a fan around its first corner: (0, 1, 2), (0, 2, 3) …"
+            ))),
+        }
+    }
+
+    /// How many there are.
+    pub(super) fn len(self) -> usize {
+        match self.starts {
+            Some(starts) => starts.len() - 1,
+            None => self.faces.len(),
+        }
+    }
+
+    fn faces_of(self, polygon: usize) -> Range<usize> {
+        match self.starts {
+            Some(starts) => starts[polygon] as usize..starts[polygon + 1] as usize,
+            None => polygon..polygon + 1,
+        }
+    }
+
+    /// How many corners a polygon has.
+    pub(super) fn count(self, polygon: usize) -> usize {
+        self.faces_of(polygon).len() + 2
+    }
+
+    /// The vertices at the corners of a polygon.
+    pub(super) fn of(self, polygon: usize) -> impl Iterator<Item = u32> {
+        let fan = &self.faces[self.faces_of(polygon)];
+        let [a, b, _] = fan[0];
+        [a, b].into_iter().chain(fan.iter().map(|face| face[2]))
     }
 }
 

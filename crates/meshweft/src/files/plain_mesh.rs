@@ -2,7 +2,7 @@
 
 use super::error::FileErrorKind;
 use super::format::Format;
-use super::new_mesh::{NewMesh, NewVertices, nothing_to_share, vertex_count};
+use super::new_mesh::{NewMesh, NewVertices, PolygonCorners, nothing_to_share, vertex_count};
 use crate::attribute::{AttributeInfo, Domain, Semantic, Values};
 use crate::faces::Faces;
 
@@ -10,6 +10,7 @@ use crate::faces::Faces;
 pub(super) struct PlainMesh<'a> {
     pub(super) positions: &'a [[f32; 3]],
     pub(super) faces: &'a [[u32; 3]],
+    pub(super) polygons: PolygonCorners<'a>,
 }
 
 impl<'a> PlainMesh<'a> {
@@ -19,13 +20,17 @@ impl<'a> PlainMesh<'a> {
     /// The mesh shares vertices, faces name vertices that are not there, something else is stored with it, or
     /// the positions are not floats of 32 bits.
     pub(super) fn new(mesh: &NewMesh<'a>, format: Format) -> Result<Self, FileErrorKind> {
-        let faces = mesh.faces;
+        let (faces, polygons) = (mesh.faces, mesh.checked_polygons()?);
         let attributes = match mesh.vertices {
             NewVertices::Shared(mesh) => return Err(nothing_to_share(mesh)),
             NewVertices::Stored(attributes) => attributes,
             NewVertices::Positions(positions) => {
                 Faces::new(faces, positions.len()).map_err(FileErrorKind::Order)?;
-                return Ok(Self { positions, faces });
+                return Ok(Self {
+                    positions,
+                    faces,
+                    polygons,
+                });
             }
         };
 
@@ -48,6 +53,7 @@ impl<'a> PlainMesh<'a> {
             Some(Values::F32(values)) => Ok(Self {
                 positions: values.as_chunks().0,
                 faces,
+                polygons,
             }),
             _ => Err(FileErrorKind::unsupported(
                 "POSITION has 64-bit floats: convert them to 32-bit floats, or create a .ply",

@@ -77,6 +77,9 @@ impl<'a> NewMeshes<'a> {
             return Err(FileErrorKind::unsupported(text));
         }
 
+        // Polygons are drawn as their faces.
+        mesh.checked_polygons()?;
+
         // The vertices: what the primitive has beside its faces, as members of its JSON.
         let (count, mut members, weights, drawn) = match attributes {
             Err(number) => {

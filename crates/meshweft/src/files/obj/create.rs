@@ -43,9 +43,9 @@ pub(super) fn bytes(meshes: &[NewMesh<'_>]) -> Result<Vec<u8>, Problem> {
             }
             text.push(b'\n');
         }
-        for face in plain.faces {
+        for polygon in 0..plain.polygons.len() {
             text.push(b'f');
-            for &vertex in face {
+            for vertex in plain.polygons.of(polygon) {
                 text.push(b' ');
                 push_number(&mut text, first + u64::from(vertex));
             }

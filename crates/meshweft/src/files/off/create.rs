@@ -19,7 +19,7 @@ pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
     let mut text = b"OFF\n".to_vec();
     push_number(&mut text, mesh.positions.len() as u64);
     text.push(b' ');
-    push_number(&mut text, mesh.faces.len() as u64);
+    push_number(&mut text, mesh.polygons.len() as u64);
     text.extend(b" 0\n");
 
     // The records.
@@ -30,9 +30,9 @@ pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
         }
         text.push(b'\n');
     }
-    for face in mesh.faces {
-        text.push(b'3');
-        for &vertex in face {
+    for polygon in 0..mesh.polygons.len() {
+        push_number(&mut text, mesh.polygons.count(polygon) as u64);
+        for vertex in mesh.polygons.of(polygon) {
             text.push(b' ');
             push_number(&mut text, vertex.into());
         }

@@ -5,7 +5,10 @@ use std::collections::BTreeSet;
 use super::attributes::{COLORS, TEXTURES, is_unsigned};
 use crate::attribute::{Attribute, ComponentType, Domain, Semantic, Values};
 use crate::files::error::FileErrorKind;
-use crate::files::new_mesh::{NewMesh, in_one_line, nothing_to_share, vertex_count};
+use crate::files::new_mesh::{
+    NewMesh, PolygonCorners, in_one_line, nothing_to_share, vertex_count,
+};
+use crate::index::index32;
 
 /// The bytes of a file with this mesh.
 ///
@@ -14,6 +17,8 @@ use crate::files::new_mesh::{NewMesh, in_one_line, nothing_to_share, vertex_coun
 pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
     let attributes = mesh.vertices.attributes().map_err(nothing_to_share)?;
     let vertex_count = vertex_count(&attributes, mesh.faces)?;
+    let polygons = mesh.checked_polygons()?;
+    check_polygons(polygons, &attributes)?;
     let vertices = columns(&attributes, Domain::Vertex)?;
     let faces = columns(&attributes, Domain::Face)?;
     let textures = texture_list(&attributes)?;
@@ -33,9 +38,18 @@ pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
         Ok(_) => "int",
         Err(_) => "uint",
     };
+    // Older readers know no other type of their number either.
+    let most_corners = (0..polygons.len())
+        .map(|polygon| polygons.count(polygon))
+        .max();
+    let count_type = match most_corners {
+        Some(256..) => ComponentType::U32,
+        _ => ComponentType::U8,
+    };
     header += &format!(
-        "element face {}\nproperty list uchar {corner} vertex_indices\n",
-        mesh.faces.len()
+        "element face {}\nproperty list {} {corner} vertex_indices\n",
+        polygons.len(),
+        type_name(count_type)
     );
     if let Some(textures) = &textures {
         header += &format!(
@@ -48,16 +62,18 @@ pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
 
     // The rows.
     let row = |columns: &[NewProperty]| columns.iter().map(|column| column.size).sum::<usize>();
-    let face_row = 13 + row(&faces) + textures.as_ref().map_or(0, |t| 1 + t.size);
-    let length = vertex_count * row(&vertices) + mesh.faces.len() * face_row;
+    let face_row =
+        count_type.size() + 8 + row(&faces) + textures.as_ref().map_or(0, |t| 1 + t.size);
+    let length = vertex_count * row(&vertices) + polygons.len() * face_row + 4 * mesh.faces.len();
     let mut bytes = header.into_bytes();
     bytes.reserve_exact(length);
     for vertex in 0..vertex_count {
         add_row(&vertices, vertex, &mut bytes);
     }
-    for (number, face) in mesh.faces.iter().enumerate() {
-        bytes.push(3);
-        bytes.extend(face.iter().flat_map(|corner| corner.to_le_bytes()));
+    for number in 0..polygons.len() {
+        let count = index32(polygons.count(number)).to_le_bytes();
+        bytes.extend(&count[..count_type.size()]);
+        bytes.extend(polygons.of(number).flat_map(u32::to_le_bytes));
         if let Some(textures) = &textures {
             bytes.push(6);
             textures.add(number, &mut bytes);
@@ -65,6 +81,24 @@ pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
         add_row(&faces, number, &mut bytes);
     }
     Ok(bytes)
+}
+
+/// Refuses what is stored by face or corner where faces are cut from polygons: such a file has it by polygon.
+fn check_polygons(
+    polygons: PolygonCorners<'_>,
+    attributes: &[Attribute],
+) -> Result<(), FileErrorKind> {
+    let mut of_faces = attributes
+        .iter()
+        .filter(|a| a.info.domain != Domain::Vertex);
+    let has_larger = (0..polygons.len()).any(|polygon| polygons.count(polygon) > 3);
+    match of_faces.next().filter(|_| has_larger) {
+        None => Ok(()),
+        Some(attribute) => refused(format!(
+            "{} is stored by triangle, and a PLY file with polygons has it by polygon: leave the polygons out",
+            attribute.info.semantic
+        )),
+    }
 }
 
 /// The values of one attribute, and the names of the properties that hold its components.

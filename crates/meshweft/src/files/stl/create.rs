@@ -14,7 +14,9 @@ use crate::index::index32;
 /// # Errors
 /// There is more to the mesh than positions and faces.
 pub(super) fn bytes(mesh: &NewMesh<'_>) -> Result<Vec<u8>, FileErrorKind> {
-    let PlainMesh { positions, faces } = PlainMesh::new(mesh, Format::Stl)?;
+    let PlainMesh {
+        positions, faces, ..
+    } = PlainMesh::new(mesh, Format::Stl)?;
     let mut bytes = Vec::with_capacity(HEADER + faces.len() * FACET);
     bytes.extend(header(mesh.name));
     bytes.extend(index32(faces.len()).to_le_bytes());
