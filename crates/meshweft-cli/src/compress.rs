@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use meshweft::connectivity::FirstVertex;
 use meshweft::files::{Document, ReadOptions};
 use meshweft::operations::{
-    self, CompressOptions, CompressReport, KeepOrder, PositionPrecision, Tier,
+    self, CompressOptions, CompressReport, KeepOrder, PolygonCounts, PositionPrecision, Tier,
 };
 
 use crate::run::arguments::Size;
@@ -73,7 +73,7 @@ pub(crate) struct Compress {
     /// Leave out normals, texture coordinates and whatever else is stored with vertices, corners and faces
     #[arg(long, display_order = 2)]
     drop_attributes: bool,
-    /// Store polygons as the triangles that they are drawn as
+    /// Store polygons as the triangles that they are drawn as, and leave out faces of fewer than three corners
     #[arg(long, display_order = 2)]
     triangles: bool,
     /// Replace the output, whatever it is
@@ -201,13 +201,30 @@ pub(crate) fn run(arguments: &Compress) -> Result<()> {
 /// The report for people: a line a mesh, and the sum.
 fn text(report: &CompressReport) -> String {
     let mesh = |mesh: &operations::CompressedMesh| {
+        let PolygonCounts { kept, cut } = mesh.polygons;
+        let mut polygons = match kept {
+            0 => String::new(),
+            1 => format!(", 1 polygon in {:.0} bytes", mesh.sizes.polygons),
+            _ => format!(
+                ", {kept} polygons in {:.0} bytes ({:.2} bits each)",
+                mesh.sizes.polygons,
+                mesh.polygon_bits()
+            ),
+        };
+        if cut > 0 {
+            let text = match cut {
+                1 => ", 1 polygon stored as its triangles".to_owned(),
+                _ => format!(", {cut} polygons stored as their triangles"),
+            };
+            polygons += &text;
+        }
         let order = match report.options.keep_order {
             KeepOrder::Nothing => String::new(),
             _ => format!(", {:.0} bytes for the order", mesh.sizes.order),
         };
         format!(
-            "{}: {} vertices, {} faces: {} bytes ({:.2} bits a face and {:.2} a vertex{order}); each vertex sent once to a \
-             buffer of {}\n",
+            "{}: {} vertices, {} faces: {} bytes ({:.2} bits a face and {:.2} a vertex{order}){polygons}; each vertex sent \
+             once to a buffer of {}\n",
             mesh.name,
             mesh.vertices,
             mesh.faces,

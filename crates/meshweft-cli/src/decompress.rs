@@ -7,8 +7,8 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
-use meshweft::files::{self, NewMesh};
-use meshweft::operations::{self, DecodedOrder, DecompressOptions};
+use meshweft::files::{self, Format, NewMesh};
+use meshweft::operations::{self, DecodedOrder, DecompressOptions, DecompressedMesh};
 use serde_json::json;
 
 use crate::run::arguments::Size;
@@ -19,9 +19,13 @@ pub(crate) struct Decompress {
     /// A file that compress wrote
     #[arg(value_name = "IN.mwz")]
     input: PathBuf,
-    /// Where to write: a .glb, .gltf, .obj, .ply, .off or .stl file; the last three hold one mesh
+    /// Where to write: a .glb, .gltf, .obj, .ply, .off or .stl file; the last three hold one mesh; .obj, .ply and .off have
+    /// polygons, if they were compressed
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    /// Write the triangles that polygons are drawn as
+    #[arg(long, display_order = 2)]
+    triangles: bool,
     /// The order of faces and vertices
     #[arg(
         long,
@@ -55,6 +59,11 @@ impl Decompress {
     fn options(&self) -> DecompressOptions {
         let mut options = DecompressOptions::default();
         options.limits = self.size.limits();
+        let has_polygons = matches!(
+            Format::of_path(&self.output),
+            Some(Format::Obj | Format::Ply | Format::Off)
+        );
+        options.triangles = self.triangles || !has_polygons;
         options.order = match self.order {
             Order::Source => DecodedOrder::Source,
             Order::Window => DecodedOrder::Window,
@@ -88,16 +97,43 @@ pub(crate) fn run(arguments: &Decompress) -> Result<()> {
     // What is written.
     let new = meshes.iter();
     let new: Vec<NewMesh<'_>> = new
-        .map(|(name, mesh)| NewMesh::plain(name, mesh.positions(), mesh.faces()))
+        .map(
+            |DecompressedMesh {
+                 name,
+                 mesh,
+                 polygons,
+                 ..
+             }| {
+                let new = NewMesh::plain(name, mesh.positions(), mesh.faces());
+                match polygons {
+                    Some(starts) => new.with_polygons(starts),
+                    None => new,
+                }
+            },
+        )
         .collect();
     let written = files::create(&arguments.output, &new, arguments.force)?;
 
     // What was done.
-    let vertices: usize = meshes.iter().map(|(_, mesh)| mesh.vertex_count()).sum();
-    let faces: usize = meshes.iter().map(|(_, mesh)| mesh.face_count()).sum();
+    let vertices: usize = meshes.iter().map(|it| it.mesh.vertex_count()).sum();
+    let faces: usize = meshes.iter().map(|it| it.mesh.face_count()).sum();
+    let starts = || meshes.iter().filter_map(|it| it.polygons.as_deref());
+    let polygons: usize = starts()
+        .map(|starts| {
+            starts
+                .windows(2)
+                .filter(|ends| ends[1] - ends[0] > 1)
+                .count()
+        })
+        .sum();
+    let and_polygons = match polygons {
+        0 => String::new(),
+        1 => ", 1 polygon".to_owned(),
+        _ => format!(", {polygons} polygons"),
+    };
     let output = arguments.output.display().to_string();
     arguments.report.text(&format!(
-        "{} -> {output}: {} {}, {vertices} vertices, {faces} faces",
+        "{} -> {output}: {} {}, {vertices} vertices, {faces} faces{and_polygons}",
         name(),
         meshes.len(),
         if meshes.len() == 1 { "mesh" } else { "meshes" },
@@ -110,6 +146,7 @@ pub(crate) fn run(arguments: &Decompress) -> Result<()> {
         "meshes": meshes.len(),
         "vertices": vertices,
         "faces": faces,
+        "polygons": polygons,
     });
     Ok(arguments.report.json("decompress", &members)?)
 }

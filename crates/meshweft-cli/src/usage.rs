@@ -28,7 +28,7 @@ pub(crate) fn message(error: &Error) -> String {
         Some(CompressError::Attributes { .. }) => {
             return text.replace("drop_attributes", "--drop-attributes");
         }
-        Some(CompressError::Polygons { .. }) => {
+        Some(CompressError::Lines { .. }) => {
             return text.replace("with triangles", "with --triangles");
         }
         Some(CompressError::WidePositions { .. }) => {

@@ -10,8 +10,8 @@ use meshweft::cache;
 use meshweft::connectivity::FirstVertex;
 use meshweft::files::{Document, Format, NewMesh, NewVertices, ReadOptions};
 use meshweft::operations::{
-    CompressError, CompressOptions, DecodedOrder, DecompressOptions, KeepOrder, PositionPrecision,
-    compress, decompress,
+    CompressError, CompressOptions, DecodedOrder, DecompressOptions, DecompressedMesh, KeepOrder,
+    PositionPrecision, compress, decompress,
 };
 use meshweft::{CacheModel, Limits, Mesh};
 
@@ -68,7 +68,7 @@ fn every_file_at_hand_comes_back_from_either_precision() {
             assert_eq!(report.bytes_after, bytes.len() as u64);
             let meshes = decompress(&bytes, &DecompressOptions::default()).unwrap();
             assert_eq!(meshes.len(), document.meshes().len());
-            for (number, (name, mesh)) in meshes.iter().enumerate() {
+            for (number, DecompressedMesh { name, mesh, .. }) in meshes.iter().enumerate() {
                 let entry = &document.meshes()[number];
                 assert_eq!(
                     (name, mesh.face_count()),
@@ -99,9 +99,9 @@ fn what_comes_back_is_good_to_draw() {
         let (bytes, _) = compress(&document, &leaving_out()).unwrap();
         let mut options = DecompressOptions::default();
         options.order = DecodedOrder::Stored;
-        let stored = decompress(&bytes, &options).unwrap().remove(0).1;
+        let stored = decompress(&bytes, &options).unwrap().remove(0).mesh;
         options.order = DecodedOrder::Window;
-        let drawn = decompress(&bytes, &options).unwrap().remove(0).1;
+        let drawn = decompress(&bytes, &options).unwrap().remove(0).mesh;
         let [before, after] = [&stored, &drawn].map(|mesh| cache::acmr(mesh, CacheModel::fifo(16)));
         assert!(before > 0.9 && after <= 0.75, "{name}: {before} {after}");
 
@@ -164,11 +164,11 @@ fn polygons_are_triangles_on_request() {
     let text = b"OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n".to_vec();
     let document =
         Document::from_bytes(text, Format::Off, "square.off".as_ref(), Limits::default()).unwrap();
-    let error = compress(&document, &CompressOptions::default()).unwrap_err();
-    assert!(error.to_string().contains("polygons"), "{error}");
-    let (bytes, _) = compress(&document, &leaving_out()).unwrap();
+    let (bytes, report) = compress(&document, &leaving_out()).unwrap();
+    assert_eq!(report.meshes[0].polygons.kept, 0);
     let meshes = decompress(&bytes, &DecompressOptions::default()).unwrap();
-    assert_eq!(meshes[0].1.face_count(), 2);
+    assert_eq!(meshes[0].polygons, None);
+    assert_eq!(meshes[0].mesh.face_count(), 2);
 }
 
 #[test]
@@ -191,7 +191,7 @@ fn meshes_that_meet_still_meet_on_their_lattice() {
             points.sort_unstable();
             points
         };
-        let [left, right] = [has(&meshes[0].1), has(&meshes[1].1)];
+        let [left, right] = [has(&meshes[0].mesh), has(&meshes[1].mesh)];
         let shared = left.iter().filter(|point| right.contains(point));
         assert_eq!(shared.count(), 2, "{:?}", report.step);
     }
@@ -214,7 +214,7 @@ fn index_buffers_are_the_same_where_the_order_is_kept() {
         let (bytes, report) = compress(&document, &options).unwrap();
         assert!(report.meshes[0].sizes.order > 0.0);
         let back = decompress(&bytes, &DecompressOptions::default()).unwrap();
-        let mesh = &back[0].1;
+        let mesh = &back[0].mesh;
         assert_eq!(mesh.faces(), document.meshes()[0].mesh.faces(), "{name}");
         assert_eq!(mesh.positions(), document.positions(0).unwrap().unwrap());
 
@@ -227,7 +227,7 @@ fn index_buffers_are_the_same_where_the_order_is_kept() {
             let position = |&vertex: &u32| mesh.positions()[vertex as usize];
             corners.map(position).collect()
         };
-        assert_eq!(positions(&back[0].1), positions(mesh), "{name}");
+        assert_eq!(positions(&back[0].mesh), positions(mesh), "{name}");
     }
 }
 

@@ -169,10 +169,10 @@ fn no_file_of_others_is_written_over_and_damage_is_said() {
 fn what_is_left_out_is_asked_for() {
     let folder = Folder::new("compress-out");
     folder.write(
-        "square.off",
-        "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
+        "line.off",
+        "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n2 0 2\n",
     );
-    let run = folder.run(&["compress", "square.off", "-o", "square.mwz"]);
+    let run = folder.run(&["compress", "line.off", "-o", "line.mwz"]);
     assert!(
         run.code() == 1 && run.err().contains("--triangles"),
         "{}",
@@ -188,4 +188,76 @@ fn what_is_left_out_is_asked_for() {
     );
     let run = folder.run(&["compress", "uv.obj", "-o", "uv.mwz", "--drop-attributes"]);
     assert_eq!(run.code(), 0, "{}", run.err());
+}
+
+#[test]
+fn polygons_come_back_where_the_format_has_them() {
+    let folder = Folder::new("compress-polygons");
+    let square = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 1 0\n4 0 1 2 3\n3 1 4 2\n";
+    folder.write("square.off", square);
+    let compress = ["compress", "square.off", "-o", "square.mwz", "--force"];
+    let compress = |flags: &[&str]| {
+        let run = folder.run(&[&compress[..], flags].concat());
+        assert_eq!(run.code(), 0, "{}", run.err());
+        run
+    };
+    let decompress = |output: &str, flags: &[&str]| {
+        let arguments = ["decompress", "square.mwz", "--force", "-o", output];
+        let run = folder.run(&[&arguments[..], flags].concat());
+        assert_eq!(run.code(), 0, "{}", run.err());
+        run
+    };
+
+    // In the order of the file, the same file.
+    let run = compress(&["--keep-order", "both"]);
+    assert!(run.out().contains("1 polygon in "), "{}", run.out());
+    let run = decompress("back.off", &[]);
+    assert_eq!(folder.read("back.off"), square.as_bytes());
+    assert!(run.out().contains("3 faces, 1 polygon"), "{}", run.out());
+    for name in ["back.obj", "back.ply"] {
+        decompress(name, &[]);
+        let run = folder.run(&["compare", "square.off", name]);
+        assert_eq!(run.code(), 0, "{}{}", run.out(), run.err());
+    }
+    let obj = String::from_utf8(folder.read("back.obj")).unwrap();
+    assert!(obj.ends_with("f 1 2 3 4\nf 2 5 3\n"), "{obj}");
+
+    // Triangles, where these are asked for or all that the format has.
+    let as_triangles = |output: &str, flags: &[&str]| {
+        let report = decompress(output, &[flags, &["--json"]].concat()).json();
+        assert_eq!(
+            (&report["polygons"], &report["faces"]),
+            (&0.into(), &3.into())
+        );
+    };
+    as_triangles("back.glb", &[]);
+    as_triangles("back.stl", &[]);
+    as_triangles("triangles.off", &["--triangles"]);
+    let report = compress(&["--json"]).json();
+    assert_eq!(report["meshes"][0]["polygons"], 1);
+    assert!(report["meshes"][0]["polygon_bytes"].as_f64() > Some(0.0));
+    let report = compress(&["--triangles", "--json"]).json();
+    assert_eq!(report["meshes"][0]["polygon_bytes"], 0.0);
+    as_triangles("triangles.off", &[]);
+}
+
+#[test]
+fn a_polygon_that_cannot_come_back_is_counted() {
+    let folder = Folder::new("compress-cut");
+    // Two faces more at the diagonal of the first.
+    folder.write(
+        "fins.off",
+        "OFF\n6 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n0 0 2\n4 0 1 2 3\n3 0 2 4\n3 2 0 5\n",
+    );
+    let run = folder.run(&["compress", "fins.off", "-o", "fins.mwz"]);
+    assert!(
+        run.code() == 0 && run.out().contains("1 polygon stored as its triangles"),
+        "{}{}",
+        run.out(),
+        run.err()
+    );
+    let run = folder.run(&["decompress", "fins.mwz", "-o", "back.off"]);
+    assert!(run.out().contains("4 faces"), "{}", run.out());
+    let run = folder.run(&["compare", "fins.off", "back.off"]);
+    assert_eq!(run.code(), 0, "{}{}", run.out(), run.err());
 }

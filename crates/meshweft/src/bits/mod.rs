@@ -2,6 +2,7 @@
 //!
 //! Everything is in integers, so a stream is the same on every platform.
 
+mod adaptive_bit;
 mod adaptive_table;
 mod checksum;
 mod error;
@@ -13,6 +14,7 @@ mod number;
 mod rans;
 pub(crate) mod varint;
 
+pub(crate) use adaptive_bit::AdaptiveBit;
 pub(crate) use adaptive_table::{AdaptiveTable, Mean, SYMBOLS};
 pub(crate) use checksum::crc32;
 pub use error::{DecodeError, DecodeErrorKind};

@@ -46,10 +46,6 @@ pub(crate) trait Port: Sized {
     fn bits(&mut self, lane: Lane, count: u32, bits: u64) -> u64;
 
     /// A bit that is set with a chance in parts of 32,768, neither 0 nor all.
-    #[cfg_attr(
-        not(feature = "default-tier"),
-        expect(dead_code, reason = "for that tier")
-    )]
     fn bit(&mut self, lane: Lane, chance: u32, is_set: bool) -> bool;
 
     /// Does something with what a processor can keep in its registers: nothing else may refer to it.

@@ -1,7 +1,7 @@
 //! Several compressed meshes with their names: what a `.mwz` file holds.
 
+use super::decoded_mesh::DecodedMesh;
 use super::mesh_code::MeshCode;
-use super::source_order::SourceOrder;
 use crate::bits::{DecodeError, DecodeErrorKind, crc32, varint};
 use crate::limits::Limits;
 use crate::mesh::Mesh;
@@ -77,24 +77,28 @@ impl MeshArchive {
     /// # Panics
     /// If there is no such mesh.
     pub fn decode(&self, mesh: usize, limits: Limits) -> Result<Mesh, DecodeError> {
-        let (mesh, order) = self.decode_stored(mesh, limits)?;
-        Ok(order.restore(mesh))
+        self.decoded(mesh, limits, MeshCode::decode)
     }
 
-    /// The mesh in the order of the stream, and what of the order of the source is stored.
+    /// The mesh in the order of the stream, and what of its polygons and of the order of the source is stored.
     ///
     /// # Errors
     /// As [`MeshCode::decode`].
     ///
     /// # Panics
     /// If there is no such mesh.
-    pub fn decode_stored(
+    pub fn decode_stored(&self, mesh: usize, limits: Limits) -> Result<DecodedMesh, DecodeError> {
+        self.decoded(mesh, limits, MeshCode::decode_stored)
+    }
+
+    fn decoded<T>(
         &self,
         mesh: usize,
         limits: Limits,
-    ) -> Result<(Mesh, SourceOrder), DecodeError> {
+        decode: impl Fn(&[u8], Limits) -> Result<T, DecodeError>,
+    ) -> Result<T, DecodeError> {
         let entry = &self.meshes[mesh];
-        MeshCode::decode_stored(&entry.code, limits).map_err(|error| DecodeError {
+        decode(&entry.code, limits).map_err(|error| DecodeError {
             byte: error.byte + entry.byte,
             ..error
         })

@@ -1,6 +1,7 @@
 //! A mesh as bytes.
 
 use super::options::{CodeError, CodeOptions, PositionCoding, Tier};
+use super::polygons::diagonals::{self, WrittenPolygons};
 use super::positions::{Coordinate, Exact, OnLattice, Positions};
 use super::source_order;
 use crate::bits::varint;
@@ -9,6 +10,7 @@ use crate::connectivity::MixedModel;
 use crate::connectivity::{Blocks, TableModel};
 use crate::faces::Faces;
 use crate::geometry::Lattice;
+use crate::index::index32;
 use crate::mesh::Mesh;
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -19,6 +21,17 @@ pub struct MeshCode {
     vertices: VertexOrder,
     faces: FaceOrder,
     sizes: CodeSizes,
+    polygons: PolygonCounts,
+}
+
+/// How many polygons of more than three corners are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct PolygonCounts {
+    /// Those that come back.
+    pub kept: usize,
+    /// Those that come back as the triangles that they were cut into: an edge between two of these has other faces too,
+    /// or faces that are turned over; or they are no fan around the first corner.
+    pub cut: usize,
 }
 
 /// What takes how many bytes, about: symbols take fractions of bits.
@@ -28,6 +41,8 @@ pub struct CodeSizes {
     pub connectivity: f64,
     /// The positions.
     pub positions: f64,
+    /// Which faces are polygons: 0 if none is.
+    pub polygons: f64,
     /// The order of the source: 0 unless it is kept.
     pub order: f64,
     /// The rest: counts, the beginnings and ends of blocks.
@@ -38,6 +53,8 @@ pub struct CodeSizes {
 pub(super) const IS_LOSSLESS: u8 = 1;
 /// The order of the faces of the source is stored, and that of the vertices.
 pub(super) const KEEPS: [u8; 2] = [2, 4];
+/// Polygons are stored.
+pub(super) const HAS_POLYGONS: u8 = 8;
 
 impl MeshCode {
     /// Compresses any mesh.
@@ -69,6 +86,41 @@ impl MeshCode {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(mesh: &Mesh, options: &CodeOptions) -> Result<Self, CodeError> {
+        let starts: Vec<u32> = (0..=index32(mesh.face_count())).collect();
+        Self::of_polygons(mesh, &starts, options)
+    }
+
+    /// Compresses any mesh together with the polygons that its faces were cut from: faces `starts[i]..starts[i + 1]` are
+    /// polygon `i`, a fan around its first corner. Those without faces are left out.
+    ///
+    /// A polygon comes back as the cyclic list of its corners, with the same triangles; which corner is first is known of more
+    /// than four corners, and of all where the order of the faces is kept. What cannot come back as a polygon comes back as its
+    /// triangles, and is [counted](Self::polygons). Without polygons of more than three corners, the bytes are those of
+    /// [`new`](Self::new).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), or the starts do not rise from 0 to the number of faces.
+    ///
+    /// # Complexity
+    /// As [`new`](Self::new).
+    ///
+    /// ```
+    /// use meshweft::compression::{CodeOptions, MeshCode};
+    /// use meshweft::{Limits, Mesh};
+    ///
+    /// let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3]])?;
+    /// let code = MeshCode::of_polygons(&mesh, &[0, 2], &CodeOptions::default())?;
+    /// let stored = MeshCode::decode_stored(code.bytes(), Limits::default())?;
+    /// let (decoded, starts) = stored.restore();
+    /// assert_eq!((decoded.face_count(), starts), (2, Some(vec![0, 2])));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of_polygons(
+        mesh: &Mesh,
+        starts: &[u32],
+        options: &CodeOptions,
+    ) -> Result<Self, CodeError> {
         let vertex_count = mesh.vertex_count();
         if mesh.positions().len() != vertex_count {
             return Err(CodeError::NoPositions);
@@ -79,6 +131,10 @@ impl MeshCode {
                 vertex,
                 vertex_count,
             });
+        }
+        let ends = starts.first().zip(starts.last());
+        if ends != Some((&0, &index32(mesh.face_count()))) || !starts.is_sorted() {
+            return Err(CodeError::PolygonStarts);
         }
 
         // What is before the blocks.
@@ -113,8 +169,18 @@ impl MeshCode {
         };
         bytes.extend(blocks.bytes);
 
-        // What leads back to the order of the source.
+        // Which faces are polygons.
         let (of_faces, of_vertices) = (&blocks.faces, &blocks.vertices);
+        let polygons = polygons(mesh, starts, of_faces, of_vertices);
+        let before = bytes.len();
+        if polygons.kept > 0 {
+            bytes[1] |= HAS_POLYGONS;
+            varint::write(&mut bytes, polygons.bytes.len() as u64);
+            bytes.extend(&polygons.bytes);
+        }
+        let polygon_bytes = (bytes.len() - before) as f64;
+
+        // What leads back to the order of the source.
         let keep = options.keep_order;
         let order = source_order::write(&mut bytes, of_faces, of_vertices, keep);
         let [connectivity, positions] = blocks.bits.map(|bits| bits / 8.0);
@@ -122,8 +188,13 @@ impl MeshCode {
             sizes: CodeSizes {
                 connectivity,
                 positions,
+                polygons: polygon_bytes,
                 order,
-                rest: bytes.len() as f64 - connectivity - positions - order,
+                rest: bytes.len() as f64 - connectivity - positions - polygon_bytes - order,
+            },
+            polygons: PolygonCounts {
+                kept: polygons.kept,
+                cut: polygons.cut,
             },
             bytes,
             vertices: blocks.vertices,
@@ -149,11 +220,32 @@ impl MeshCode {
         &self.faces
     }
 
+    /// How many polygons of more than three corners come back.
+    #[must_use]
+    pub fn polygons(&self) -> PolygonCounts {
+        self.polygons
+    }
+
     /// What takes how many bytes.
     #[must_use]
     pub fn sizes(&self) -> CodeSizes {
         self.sizes
     }
+}
+
+/// What is stored of the polygons of a mesh, by the orders in which its faces and vertices are.
+fn polygons(
+    mesh: &Mesh,
+    starts: &[u32],
+    faces: &FaceOrder,
+    vertices: &VertexOrder,
+) -> WrittenPolygons {
+    if starts.windows(2).all(|ends| ends[1] - ends[0] < 2) {
+        return WrittenPolygons::default();
+    }
+    let mut stored = faces.apply(mesh.faces());
+    vertices.renumber_in_place(&mut stored);
+    diagonals::write(mesh.faces(), starts, faces, &stored, mesh.vertex_count())
 }
 
 /// Writes the blocks of a tier.

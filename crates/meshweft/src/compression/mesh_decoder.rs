@@ -1,7 +1,8 @@
 //! Bytes as a mesh.
 
-use super::mesh_code::{IS_LOSSLESS, KEEPS, MeshCode};
+use super::mesh_code::{HAS_POLYGONS, IS_LOSSLESS, KEEPS};
 use super::options::Tier;
+use super::polygons::{PolygonOrder, PolygonPiece, diagonals};
 use super::positions::{Coordinate, Exact, OnLattice, Positions};
 use super::source_order::{OrderReader, SourceOrder};
 use crate::bits::{DecodeError, DecodeErrorKind, varint};
@@ -10,7 +11,6 @@ use crate::connectivity::MixedModel;
 use crate::connectivity::{BlockReader, FanModel, TableModel};
 use crate::geometry::Lattice;
 use crate::limits::Limits;
-use crate::mesh::Mesh;
 
 /// Decodes a mesh while its bytes arrive.
 ///
@@ -18,6 +18,7 @@ use crate::mesh::Mesh;
 /// that, the decoder needs at most 64 KiB and 256 bytes for each vertex of the buffer that minimum-time rendering needs,
 /// where a push brings no more than one block. Where the order of the source is stored, it comes after all faces, and takes
 /// five bytes a face and four a vertex.
+/// Polygons come before it; they are passed over unless the decoder was made [with polygons](Self::with_polygons).
 ///
 /// ```
 /// use meshweft::compression::{CodeOptions, MeshCode, MeshDecoder};
@@ -44,6 +45,7 @@ pub struct MeshDecoder {
     /// Bytes before them.
     passed: usize,
     reader: Option<MeshBlocks>,
+    polygons: PolygonPiece,
     order: OrderReader,
     positions: Vec<[f32; 3]>,
     error: Option<DecodeError>,
@@ -108,10 +110,20 @@ impl MeshDecoder {
             waiting: Vec::new(),
             passed: 0,
             reader: None,
+            polygons: PolygonPiece::default(),
             order: OrderReader::new([None; 2]),
             positions: Vec::new(),
             error: None,
         }
+    }
+
+    /// A decoder that also gives the polygons of the mesh. It keeps all faces until the end, and then needs about 40 bytes a
+    /// face.
+    #[must_use]
+    pub fn with_polygons(limits: Limits) -> Self {
+        let mut decoder = Self::new(limits);
+        decoder.polygons.ask(diagonals::read);
+        decoder
     }
 
     /// Takes the next bytes; returns how many of them belong to the mesh: all, unless it is complete.
@@ -172,18 +184,27 @@ impl MeshDecoder {
                 byte: bytes.len() - rest.len(),
                 kind,
             })?;
-            return Ok(read.map(|(reader, order)| {
+            return Ok(read.map(|(reader, has_polygons, order)| {
                 (self.reader, self.order) = (Some(reader), order);
+                if has_polygons {
+                    self.polygons.expect();
+                }
                 bytes.len() - rest.len()
             }));
         };
         let MeshBlocks { reader, frame } = reader;
         if with_reader!(&*reader, reader => reader.is_complete()) {
-            return self.order.read_piece(bytes);
+            let [vertex_count, _] = with_reader!(&*reader, reader => reader.counts());
+            return match self.polygons.is_complete() {
+                false => self.polygons.read_piece(bytes, vertex_count),
+                true => self.order.read_piece(bytes),
+            };
         }
-        let positions = &mut self.positions;
+        let (positions, polygons) = (&mut self.positions, &mut self.polygons);
         let read = with_reader!(reader, reader => {
+            let taken = reader.faces().len();
             let read = reader.read_piece(bytes)?;
+            polygons.keep(&reader.faces()[taken..]);
             let numbers = std::mem::take(&mut reader.at_vertices().read);
             add(positions, numbers, |numbers| frame.coordinates(numbers));
             read
@@ -197,7 +218,7 @@ impl MeshDecoder {
         let reader = self.reader.as_ref();
         let is_complete =
             |reader: &MeshBlocks| with_reader!(&reader.reader, reader => reader.is_complete());
-        reader.is_some_and(is_complete) && self.order.is_complete()
+        reader.is_some_and(is_complete) && self.polygons.is_complete() && self.order.is_complete()
     }
 
     /// How many vertices and faces the mesh has, once that was read.
@@ -225,6 +246,12 @@ impl MeshDecoder {
     /// What of the order of the source is stored, once everything was read. What was taken does not come again.
     pub fn take_source_order(&mut self) -> Option<SourceOrder> {
         self.is_complete().then(|| self.order.take())
+    }
+
+    /// The polygons, once everything was read; none if all faces are triangles, or if the decoder was not made
+    /// [with them](Self::with_polygons). What was taken does not come again.
+    pub fn take_polygons(&mut self) -> Option<PolygonOrder> {
+        self.is_complete().then(|| self.polygons.take()).flatten()
     }
 
     /// # Errors
@@ -262,42 +289,11 @@ fn add(
     }
 }
 
-impl MeshCode {
-    /// The mesh, from all its bytes, in the order of the source as far as that is stored.
-    ///
-    /// # Errors
-    /// As [`MeshDecoder::push`], or bytes are missing or left over.
-    ///
-    /// # Complexity
-    /// Time and space O(vertices + faces), which the limits bound: a regular mesh takes less than a bit for a
-    /// thousand faces.
-    pub fn decode(bytes: &[u8], limits: Limits) -> Result<Mesh, DecodeError> {
-        let (mesh, order) = Self::decode_stored(bytes, limits)?;
-        Ok(order.restore(mesh))
-    }
-
-    /// The mesh in the order of the stream, and what of the order of the source is stored.
-    ///
-    /// # Errors
-    /// As [`decode`](Self::decode).
-    pub fn decode_stored(bytes: &[u8], limits: Limits) -> Result<(Mesh, SourceOrder), DecodeError> {
-        let mut decoder = MeshDecoder::new(limits);
-        let used = decoder.push(bytes)?;
-        decoder.finish()?;
-        if used < bytes.len() {
-            return Err(DecodeError::damaged(used));
-        }
-        let (positions, faces) = (decoder.take_positions(), decoder.take_faces());
-        let mesh = Mesh::new(positions, faces).map_err(|_| DecodeError::damaged(used))?;
-        Ok((mesh, decoder.take_source_order().unwrap_or_default()))
-    }
-}
-
-/// What is before the blocks, or `None` if it is not complete.
+/// What is before the blocks, and whether polygons follow them, or `None` if it is not complete.
 fn read_beginning(
     bytes: &mut &[u8],
     limits: Limits,
-) -> Result<Option<(MeshBlocks, OrderReader)>, DecodeErrorKind> {
+) -> Result<Option<(MeshBlocks, bool, OrderReader)>, DecodeErrorKind> {
     // How it is coded.
     let Some(&[tier, flags]) = bytes.first_chunk() else {
         return Ok(None);
@@ -308,7 +304,7 @@ fn read_beginning(
     };
     let tier = Tier::ALL.get(usize::from(tier));
     let tier = *tier.ok_or(unknown("tier", bytes[0]))?;
-    if flags & !(IS_LOSSLESS | KEEPS[0] | KEEPS[1]) != 0 {
+    if flags & !(IS_LOSSLESS | KEEPS[0] | KEEPS[1] | HAS_POLYGONS) != 0 {
         return Err(unknown("kind of stream", flags));
     }
 
@@ -365,7 +361,8 @@ fn read_beginning(
     };
     *bytes = rest;
     let reader = MeshBlocks { reader, frame };
-    Ok(Some((reader, OrderReader::new(kept))))
+    let has_polygons = flags & HAS_POLYGONS != 0;
+    Ok(Some((reader, has_polygons, OrderReader::new(kept))))
 }
 
 fn reader_of<C: Coordinate, M: FanModel>([faces, vertices]: [usize; 2]) -> PositionReader<C, M> {

@@ -7,6 +7,8 @@
 //! size.
 //!
 //! On request the order of the source is stored too ([`KeepOrder`]), so that faces and vertices are given back at their places.
+//! Faces that were cut from polygons are stored with a bit for each edge that may be a diagonal
+//! ([`MeshCode::of_polygons`]), so that polygons come back ([`PolygonOrder`]).
 //!
 //! [`MeshArchive`] has several with their names: what a `.mwz` file holds.
 //!
@@ -15,9 +17,11 @@
 //! positions, which are expected by additions of `f32` that are the same everywhere.
 
 mod archive;
+mod decoded_mesh;
 mod mesh_code;
 mod mesh_decoder;
 mod options;
+mod polygons;
 mod positions;
 mod ring;
 mod source_order;
@@ -27,7 +31,9 @@ mod test_vectors;
 mod tests;
 
 pub use archive::MeshArchive;
-pub use mesh_code::{CodeSizes, MeshCode};
+pub use decoded_mesh::DecodedMesh;
+pub use mesh_code::{CodeSizes, MeshCode, PolygonCounts};
 pub use mesh_decoder::MeshDecoder;
 pub use options::{CodeError, CodeOptions, KeepOrder, PositionCoding, Tier};
+pub use polygons::PolygonOrder;
 pub use source_order::SourceOrder;

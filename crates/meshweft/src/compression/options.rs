@@ -92,6 +92,8 @@ pub enum CodeError {
         /// How many there are.
         vertex_count: usize,
     },
+    /// The polygons are not all the faces of the mesh.
+    PolygonStarts,
     /// A coordinate cannot be a multiple of the step.
     NotOnLattice {
         /// The vertex.
@@ -121,6 +123,10 @@ impl fmt::Display for CodeError {
             } => write!(
                 f,
                 "the first vertex is {vertex}, and there are {vertex_count}: give a smaller number"
+            ),
+            Self::PolygonStarts => write!(
+                f,
+                "polygons must start at 0, rise, and end at the number of faces"
             ),
             Self::NotOnLattice {
                 vertex,

@@ -44,7 +44,8 @@ pub use compare::{CompareReport, ComparedFile, compare};
 #[cfg(feature = "files")]
 pub use compress::{
     CompressError, CompressOptions, CompressReport, CompressedMesh, DecodedOrder,
-    DecompressOptions, KeepOrder, PositionPrecision, Tier, compress, decompress,
+    DecompressOptions, DecompressedMesh, KeepOrder, PolygonCounts, PositionPrecision, Tier,
+    compress, decompress,
 };
 pub use counts::{Counts, USUAL_CACHES};
 pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};

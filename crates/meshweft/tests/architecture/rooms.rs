@@ -29,7 +29,10 @@ const ROOMS: [(&str, &[&[&str]]); 22] = [
     // Its sequences start from orders.
     ("progressive", &[GROUND, VALUES, ALGORITHMS, &["order"]]),
     ("connectivity", &[GROUND, VALUES, &["bits", "topology"]]),
-    ("compression", &[GROUND, VALUES, &["bits", "connectivity"]]),
+    (
+        "compression",
+        &[GROUND, VALUES, &["bits", "connectivity", "topology"]],
+    ),
     // Readers and writers know no algorithm, and no algorithm knows them.
     ("files", &[GROUND, VALUES]),
     // The only place that joins both.

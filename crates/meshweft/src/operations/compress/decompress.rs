@@ -1,7 +1,7 @@
 //! An archive as meshes, in an order to be drawn.
 
 use crate::bits::DecodeError;
-use crate::compression::{MeshArchive, SourceOrder};
+use crate::compression::{DecodedMesh, MeshArchive, SourceOrder};
 use crate::connectivity::{WindowOrder, WindowSize};
 use crate::faces::Faces;
 use crate::limits::Limits;
@@ -16,6 +16,21 @@ pub struct DecompressOptions {
     pub limits: Limits,
     /// The order of faces and vertices.
     pub order: DecodedOrder,
+    /// Give polygons as the triangles that they are drawn as, in an order that is as good as without polygons.
+    pub triangles: bool,
+}
+
+/// A mesh of an archive.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct DecompressedMesh {
+    /// Its name.
+    pub name: String,
+    /// Its positions and faces.
+    pub mesh: Mesh,
+    /// Where the faces of each polygon start in [`mesh`](Self::mesh), and where the last ones end, or `None` where each
+    /// is one triangle. The faces of a polygon are a fan around its first corner.
+    pub polygons: Option<Vec<u32>>,
 }
 
 /// In which order faces and vertices are given.
@@ -33,7 +48,7 @@ pub enum DecodedOrder {
     Stored,
 }
 
-/// The meshes of an archive with their names.
+/// The meshes of an archive with their names and polygons.
 ///
 /// # Errors
 /// The bytes are not an archive, are damaged or above the limits.
@@ -43,7 +58,7 @@ pub enum DecodedOrder {
 pub fn decompress(
     bytes: &[u8],
     options: &DecompressOptions,
-) -> Result<Vec<(String, Mesh)>, DecodeError> {
+) -> Result<Vec<DecompressedMesh>, DecodeError> {
     let archive = MeshArchive::from_bytes(bytes)?;
     let limits = options.limits;
     let mut left = limits.file_bytes;
@@ -55,31 +70,50 @@ pub fn decompress(
             faces: limits.faces.min(most),
             ..limits
         };
-        let (mesh, order) = archive.decode_stored(number, limits)?;
-        let count = mesh.vertex_count() as u64 + mesh.face_count() as u64;
+        let mut stored = archive.decode_stored(number, limits)?;
+        let count = stored.mesh.vertex_count() as u64 + stored.mesh.face_count() as u64;
         left = left.saturating_sub(12 * count);
 
-        let mesh = match options.order {
-            DecodedOrder::Source => in_order(&mesh, &order),
-            DecodedOrder::Window => in_order(&mesh, &SourceOrder::default()),
-            DecodedOrder::Stored => mesh,
+        if options.triangles {
+            stored.polygons = None;
+        }
+        if options.order != DecodedOrder::Source {
+            stored.order = SourceOrder::default();
+        }
+        let (mesh, polygons) = match options.order {
+            DecodedOrder::Source | DecodedOrder::Window => in_order(&stored),
+            DecodedOrder::Stored => stored.restore(),
         };
-        Ok((archive.name(number).to_owned(), mesh))
+        Ok(DecompressedMesh {
+            name: archive.name(number).to_owned(),
+            mesh,
+            polygons,
+        })
     });
     each.collect()
 }
 
 /// A mesh, whose faces come in the order of their least vertices, in its order as far as that is known; else in an order
-/// to be drawn.
-fn in_order(mesh: &Mesh, order: &SourceOrder) -> Mesh {
+/// to be drawn; and its polygons.
+fn in_order(stored: &DecodedMesh) -> (Mesh, Option<Vec<u32>>) {
+    let DecodedMesh {
+        mesh,
+        polygons,
+        order,
+    } = stored;
     let windows = || {
         let windows = WindowOrder::of_faces(mesh, WindowSize::default());
         InBatches::BESIDE_OTHERS.follow(mesh, &windows)
     };
-    let faces = order.faces().cloned().unwrap_or_else(windows);
+    let mut faces = order.faces().cloned().unwrap_or_else(windows);
+    let polygons = polygons.as_ref().map(|polygons| {
+        let polygons = polygons.follow(&faces);
+        faces = polygons.faces().clone();
+        polygons.starts().to_vec()
+    });
     let drawn = mesh.with_face_order(&faces);
     // Not in blocks as in a file that is optimized: those that a sweep meets together have near numbers already.
     let first_use = || by_first_use(Faces::from(&drawn));
     let vertices = order.vertices().cloned().unwrap_or_else(first_use);
-    drawn.with_vertex_order(&vertices)
+    (drawn.with_vertex_order(&vertices), polygons)
 }

@@ -8,7 +8,9 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::attribute::{AttributeInfo, ComponentType, Semantic};
-use crate::compression::{CodeOptions, MeshArchive, MeshCode, PositionCoding};
+use crate::compression::{
+    CodeOptions, DecodedMesh, MeshArchive, MeshCode, PolygonOrder, PositionCoding,
+};
 use crate::connectivity::MinimumTimeRendering;
 use crate::error::MeshError;
 use crate::files::Document;
@@ -18,12 +20,12 @@ use crate::limits::Limits;
 use crate::mesh::Mesh;
 use crate::permutation::{FaceOrder, VertexOrder};
 
-pub use crate::compression::{KeepOrder, Tier};
-pub use decompress::{DecodedOrder, DecompressOptions, decompress};
+pub use crate::compression::{KeepOrder, PolygonCounts, Tier};
+pub use decompress::{DecodedOrder, DecompressOptions, DecompressedMesh, decompress};
 pub use options::{CompressError, CompressOptions, PositionPrecision};
 pub use report::{CompressReport, CompressedMesh};
 
-/// Compresses the positions and faces of a document's meshes, and decodes them again to see that nothing was lost.
+/// Compresses the positions, faces and polygons of a document's meshes, and decodes them again to see that nothing was lost.
 ///
 /// Each mesh keeps its name, its faces and its vertices. Of meshes that share vertices, as two primitives of a glTF
 /// may, each gets those that its faces have, and the first also those that none has. Materials and nodes are not
@@ -63,7 +65,8 @@ pub fn compress(
     // Mesh by mesh.
     let mut archive = MeshArchive::default();
     let mut compressed = Vec::new();
-    for (name, mesh) in &meshes {
+    for ((name, mesh), entry) in meshes.iter().zip(document.meshes()) {
+        let starts = entry.polygons.as_deref().filter(|_| !options.triangles);
         let first_vertex = options.first_vertex.choose(mesh);
         let options = CodeOptions {
             tier: options.tier,
@@ -71,13 +74,22 @@ pub fn compress(
             first_vertex: first_vertex.map_err(CompressError::FirstVertex)?,
             keep_order: options.keep_order,
         };
-        let code = MeshCode::new(mesh, &options).map_err(|error| CompressError::Mesh {
+        let code = match starts {
+            Some(starts) => MeshCode::of_polygons(mesh, starts, &options),
+            None => MeshCode::new(mesh, &options),
+        };
+        let code = code.map_err(|error| CompressError::Mesh {
             file: file(),
             mesh: name.clone(),
             error,
         })?;
         let decoded = MeshCode::decode_stored(code.bytes(), Limits::default()).ok();
-        let decoded = decoded.filter(|(mesh_as_stored, order)| {
+        let decoded = decoded.filter(|stored| {
+            let DecodedMesh {
+                mesh: mesh_as_stored,
+                polygons,
+                order,
+            } = stored;
             let (faces, vertices) = (code.faces(), code.vertices());
             let is_back = || {
                 let faces = order.faces().is_none().then_some(faces);
@@ -87,8 +99,9 @@ pub fn compress(
             };
             is_same(mesh, mesh_as_stored, Some(faces), Some(vertices), lattice)
                 && (options.keep_order == KeepOrder::Nothing || is_back())
+                && are_polygons_back(mesh, starts, polygons.as_ref(), &code)
         });
-        let (decoded, _) = decoded.ok_or_else(|| CompressError::NotVerified {
+        let decoded = decoded.ok_or_else(|| CompressError::NotVerified {
             file: file(),
             mesh: name.clone(),
         })?;
@@ -99,7 +112,8 @@ pub fn compress(
             faces: mesh.face_count(),
             bytes: code.bytes().len(),
             sizes: code.sizes(),
-            buffer_size: MinimumTimeRendering::new(&decoded).buffer_size(),
+            polygons: code.polygons(),
+            buffer_size: MinimumTimeRendering::new(&decoded.mesh).buffer_size(),
         });
     }
     let bytes = archive.to_bytes();
@@ -138,9 +152,9 @@ fn check(document: &Document, options: &CompressOptions) -> Result<(), CompressE
                 mesh: mesh(),
             });
         }
-        let is_polygon = |record| entry.faces_of(record).len() != 1;
-        if !options.triangles && (0..entry.record_count()).any(is_polygon) {
-            return Err(CompressError::Polygons {
+        let is_line = |record| entry.faces_of(record).is_empty();
+        if !options.triangles && (0..entry.record_count()).any(is_line) {
+            return Err(CompressError::Lines {
                 file: file(),
                 mesh: mesh(),
             });
@@ -265,4 +279,52 @@ fn is_same(
     let bits = decoded.positions().as_flattened().iter();
     let bits = bits.map(|it| Some(it.to_bits()));
     decoded.faces() == expected.faces() && bits.eq(expected_bits)
+}
+
+/// Whether the decoded polygons are those of the mesh, but for those that were cut: each has the same faces, and the same
+/// corners around it.
+fn are_polygons_back(
+    mesh: &Mesh,
+    starts: Option<&[u32]>,
+    polygons: Option<&PolygonOrder>,
+    code: &MeshCode,
+) -> bool {
+    let PolygonCounts { kept, cut } = code.polygons();
+    let Some((starts, polygons)) = starts.zip(polygons) else {
+        return polygons.is_none() && kept == 0;
+    };
+
+    // The decoded polygons with the faces and the vertices of the source.
+    let order = code.faces().then(polygons.faces());
+    let faces = order.apply(mesh.faces());
+    let mut found = [0; 2];
+    for ends in polygons.starts().windows(2) {
+        let decoded = ends[0] as usize..ends[1] as usize;
+        let face = order.new_to_old()[decoded.start];
+        let record = starts.partition_point(|&start| start <= face) - 1;
+        let source = starts[record] as usize..starts[record + 1] as usize;
+        let is_same = match decoded.len() {
+            1 => true,
+            _ => around(&faces[decoded.clone()]) == around(&mesh.faces()[source.clone()]),
+        };
+        let mut numbers = order.new_to_old()[decoded.clone()].to_vec();
+        numbers.sort_unstable();
+        let is_whole = numbers.iter().map(|&face| face as usize).eq(source.clone());
+        if !is_same || !(is_whole || decoded.len() == 1) {
+            return false;
+        }
+        found[0] += usize::from(decoded.len() > 1);
+        found[1] += usize::from(!is_whole && source.start == face as usize);
+    }
+    found == [kept, cut]
+}
+
+/// The corners of a fan, the least ones first that are possible.
+fn around(fan: &[[u32; 3]]) -> Vec<u32> {
+    let mut corners = vec![fan[0][0]];
+    corners.extend(fan.iter().map(|face| face[1]));
+    corners.push(fan[fan.len() - 1][2]);
+    let turns = 0..corners.len();
+    let turned = turns.map(|turn| [&corners[turn..], &corners[..turn]].concat());
+    turned.min().unwrap_or_default()
 }

@@ -52,8 +52,8 @@ pub enum CompressError {
         /// What it stores, by mesh.
         attributes: Vec<(String, Vec<AttributeInfo>)>,
     },
-    /// A mesh has polygons.
-    Polygons {
+    /// A mesh has faces of fewer than three corners, which have no triangles.
+    Lines {
         /// The file.
         file: PathBuf,
         /// The mesh.
@@ -119,10 +119,10 @@ impl fmt::Display for CompressError {
                 }
                 write!(f, ". Leave them out with drop_attributes")
             }
-            Self::Polygons { file, mesh } => write!(
+            Self::Lines { file, mesh } => write!(
                 f,
-                "{}: {mesh} has polygons of more than three corners, and triangles are compressed. Store the triangles \
-                 that they are drawn as with triangles",
+                "{}: {mesh} has faces of fewer than three corners, which cannot be compressed. Leave them out, and store \
+                 the triangles that polygons are drawn as, with triangles",
                 file.display()
             ),
             Self::UnreadFaces { file, mesh } => write!(

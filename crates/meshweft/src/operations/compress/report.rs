@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::{Map, Value, json};
 
 use super::options::{CompressOptions, PositionPrecision};
-use crate::compression::{CodeSizes, KeepOrder, Tier};
+use crate::compression::{CodeSizes, KeepOrder, PolygonCounts, Tier};
 use crate::files::Note;
 use crate::operations::json;
 
@@ -47,6 +47,8 @@ pub struct CompressedMesh {
     pub bytes: usize,
     /// What they are for.
     pub sizes: CodeSizes,
+    /// How many polygons of more than three corners come back, and how many as triangles.
+    pub polygons: PolygonCounts,
     /// How many vertices the first-in first-out buffer holds with which each is sent once.
     pub buffer_size: usize,
 }
@@ -56,6 +58,12 @@ impl CompressedMesh {
     #[must_use]
     pub fn connectivity_bits(&self) -> f64 {
         self.sizes.connectivity * 8.0 / self.faces.max(1) as f64
+    }
+
+    /// Bits of the polygons, a polygon of more than three corners; 0 without them.
+    #[must_use]
+    pub fn polygon_bits(&self) -> f64 {
+        self.sizes.polygons * 8.0 / self.polygons.kept.max(1) as f64
     }
 
     /// Bits of the positions, a vertex; 0 without vertices.
@@ -104,6 +112,9 @@ fn mesh_to_json(mesh: &CompressedMesh) -> Value {
             json!(mesh.connectivity_bits()),
         ),
         ("position_bits_per_vertex", json!(mesh.position_bits())),
+        ("polygons", json!(mesh.polygons.kept)),
+        ("polygons_cut", json!(mesh.polygons.cut)),
+        ("polygon_bytes", json!(mesh.sizes.polygons)),
         ("order_bytes", json!(mesh.sizes.order)),
         ("buffer_size", json!(mesh.buffer_size)),
     ];
