@@ -1,4 +1,4 @@
-//! `compress`: positions and faces in few bytes.
+//! `compress`: positions, faces and polygons in few bytes.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -239,8 +239,12 @@ fn text(report: &CompressReport) -> String {
         || "every bit of the positions".to_owned(),
         |step| format!("positions rounded to multiples of {step}"),
     );
+    let what = match report.options.triangles {
+        true => " and faces",
+        false => ", faces and polygons",
+    };
     format!(
-        "{meshes}{}: {} -> {} bytes, {rounded}; decoded and compared. Names, positions and faces are stored, nothing else",
+        "{meshes}{}: {} -> {} bytes, {rounded}; decoded and compared. Names, positions{what} are stored, nothing else",
         report.file.display(),
         report.bytes_before,
         report.bytes_after,

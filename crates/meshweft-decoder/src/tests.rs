@@ -11,7 +11,7 @@ fn mesh() -> Mesh {
     let positions = (0..=width * width).map(|i| [i as f32, (i / width) as f32, 0.25]);
     let faces = (0..width * (width - 1) - 1).flat_map(|i| {
         let (below, next) = (i + width, i + width + 1);
-        [[i, i + 1, below], [below, i + 1, next]]
+        [[below, i, i + 1], [below, i + 1, next]]
     });
     Mesh::new(positions.collect::<Vec<_>>(), faces.collect::<Vec<_>>()).unwrap()
 }
@@ -34,7 +34,22 @@ fn push(decoder: *mut Decoder, bytes: &[u8]) -> (u32, Vec<[f32; 3]>, Vec<[u32; 3
 
 #[test]
 fn a_mesh_arrives_in_pieces() {
-    let code = MeshCode::new(&mesh(), &CodeOptions::default()).unwrap();
+    arrives_in_pieces(&MeshCode::new(&mesh(), &CodeOptions::default()).unwrap());
+}
+
+#[test]
+fn polygons_are_passed_over() {
+    let mesh = mesh();
+    let starts: Vec<u32> = (0_u32..)
+        .step_by(2)
+        .take(mesh.face_count() / 2 + 1)
+        .collect();
+    let code = MeshCode::of_polygons(&mesh, &starts, &CodeOptions::default()).unwrap();
+    assert!(code.polygons().kept > 5000);
+    arrives_in_pieces(&code);
+}
+
+fn arrives_in_pieces(code: &MeshCode) {
     let whole = MeshCode::decode(code.bytes(), Limits::default()).unwrap();
     let bytes = [code.bytes(), &[7; 5]].concat();
 
