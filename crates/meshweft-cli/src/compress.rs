@@ -70,7 +70,10 @@ pub(crate) struct Compress {
     /// both
     #[arg(long, value_name = "WHAT", display_order = 2)]
     keep_order: Option<Kept>,
-    /// Leave out normals, texture coordinates and whatever else is stored with vertices, corners and faces
+    /// Leave out whatever is not the name of a mesh, a position or a face; a file that has more is refused without it,
+    /// and the message names what: normals, texture coordinates, colors, materials, groups, lines, nodes that are moved
+    /// or drawn twice, animations, elements of other names. Comments, header text and how numbers are written are not
+    /// kept and do not count
     #[arg(long, display_order = 2)]
     drop_attributes: bool,
     /// Store polygons as the triangles that they are drawn as, and leave out faces of fewer than three corners

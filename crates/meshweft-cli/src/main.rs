@@ -67,8 +67,9 @@ enum Verb {
     ///
     /// Every mesh comes back with each face and vertex, whatever its edges: nothing is split or joined. The result is
     /// decoded and compared before it is written. Vertices and faces get another order: that in which each vertex
-    /// is sent once to a first-in first-out buffer. Names, positions and faces are stored: no other attributes
-    /// yet, no materials, no nodes.
+    /// is sent once to a first-in first-out buffer. Names of meshes, positions and faces are stored. A file that holds
+    /// anything else is refused, unless --drop-attributes leaves it out: no attribute, material, group or node is lost
+    /// without a word.
     ///
     ///   meshweft compress scan.ply -o scan.mwz
     ///   meshweft compress scene.glb -o scene.mwz --position-bits 14 --drop-attributes

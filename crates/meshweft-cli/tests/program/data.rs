@@ -12,7 +12,7 @@ use crate::{Folder, data_folder};
 const MESHES: &[&str] = &[".obj", ".ply", ".off", ".stl", ".wrl"];
 
 /// The files below a folder with one of these endings (`.gz` aside), sorted.
-fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {

@@ -6,6 +6,7 @@ mod content;
 mod data;
 mod demo;
 mod disk;
+mod kept;
 mod many;
 mod nothing_lost;
 mod papers;

@@ -10,6 +10,7 @@ use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::placing::{Beside, Placed};
 use super::select::SelectPlan;
+use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -37,6 +38,8 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     fn corner_kinds(&self, _mesh: usize) -> Result<Vec<u32>, Problem> {
         Ok(Vec::new())
     }
+    /// What the file holds that is neither in its meshes nor in their attributes.
+    fn unlisted(&self) -> Vec<Unlisted>;
     /// Does [`Edit::Order`](super::Edit::Order); the caller has checked the orders.
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>);
     /// Does [`Edit::Select`](super::Edit::Select), or changes nothing; the notes of the document as it

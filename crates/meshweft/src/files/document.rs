@@ -18,6 +18,7 @@ use super::note::Note;
 use super::options::ReadOptions;
 use super::select::SelectPlan;
 use super::surroundings::{Surroundings, check_size};
+use super::unlisted::Unlisted;
 use super::{gltf, obj, off, ply, signature, stl, vrml};
 use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
 
@@ -339,6 +340,18 @@ impl Document {
     pub(crate) fn corner_kinds(&self, mesh: usize) -> Result<Vec<u32>, FileError> {
         let kinds = self.content.corner_kinds(mesh);
         kinds.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
+    }
+
+    /// What the file holds that is neither in its meshes nor in their attributes: materials, lines, what is said
+    /// of some faces only.
+    ///
+    /// Time O(bytes of the file).
+    pub(crate) fn unlisted(&self) -> Vec<Unlisted> {
+        let mut unlisted = self.content.unlisted();
+        if self.meshes().iter().any(MeshEntry::has_short_records) {
+            unlisted.push(Unlisted::other("faces of fewer than three corners"));
+        }
+        unlisted
     }
 
     /// The attribute that is the positions of a mesh.

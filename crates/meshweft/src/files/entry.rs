@@ -60,6 +60,12 @@ impl MeshEntry {
         }
     }
 
+    /// Whether there are records of one or two corners, or none.
+    pub(super) fn has_short_records(&self) -> bool {
+        let mut records = 0..self.record_count();
+        records.any(|record| self.faces_of(record).is_empty())
+    }
+
     /// What belongs to each corner of the faces, three a face: `of_record` has it for the corners of a record.
     pub(super) fn of_face_corners(&self, mut of_record: impl FnMut(usize) -> Vec<u32>) -> Vec<u32> {
         let mut all = Vec::with_capacity(3 * self.mesh.face_count());

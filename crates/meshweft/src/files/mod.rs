@@ -13,6 +13,7 @@
 //! | how records change places in text and in binary files | `slots`, `orders`, `rewrite`, `splice`, `definitions`, `record_file` |
 //! | how records leave, and what then stands with a corner | `select`, `bonds`, `selected`, `corner_sources` |
 //! | how the same is done in the buffers of a glTF | `gltf` |
+//! | what a file holds that is in no mesh and no attribute | `unlisted`, and one of each format |
 //! | what a file is, by its name and by its bytes | [`Format`], `signature` |
 //! | where bytes come from | `disk`, `surroundings` |
 //! | where they go, and why nothing is lost on the way | `write`, `placing`, `companions`, `links`, `locks`, `disk` |
@@ -55,6 +56,7 @@ mod splice;
 mod stl;
 mod surroundings;
 mod text;
+mod unlisted;
 mod vrml;
 mod write;
 

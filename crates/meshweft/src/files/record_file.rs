@@ -23,6 +23,7 @@ use super::selected::{self, SelectNotation, SelectSource, SelectedFile};
 use super::signature;
 use super::slots::Spans;
 use super::splice::{Layer, splice};
+use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::index::index32;
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -300,6 +301,20 @@ impl<N: SelectNotation> Content for RecordFile<N> {
             orders: &self.orders,
         };
         self.notation.attribute(&stored, info)
+    }
+
+    fn unlisted(&self) -> Vec<Unlisted> {
+        let Some(entry) = self.entries.first() else {
+            return Vec::new();
+        };
+        let stored = StoredMesh {
+            source: &self.source,
+            vertices: &self.vertices,
+            faces: &self.faces,
+            entry,
+            orders: &self.orders,
+        };
+        self.notation.unlisted(&stored).into_list()
     }
 
     fn corner_kinds(&self, _mesh: usize) -> Result<Vec<u32>, Problem> {

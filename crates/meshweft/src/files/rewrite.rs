@@ -10,6 +10,7 @@ use super::error::{Problem, no_attribute};
 use super::orders::{RecordOrders, record_in};
 use super::slots::Spans;
 use super::text::{leading_number, push_number};
+use super::unlisted::FoundKinds;
 use crate::attribute::{Attribute, AttributeInfo};
 
 /// What happens to the corners of a face.
@@ -203,6 +204,9 @@ pub(super) trait Notation: Send + Sync {
     ) -> Result<Attribute, Problem> {
         Err(no_attribute(info))
     }
+
+    /// See [`Content::unlisted`](super::content::Content::unlisted).
+    fn unlisted(&self, stored: &StoredMesh<'_>) -> FoundKinds;
 }
 
 #[cfg(test)]

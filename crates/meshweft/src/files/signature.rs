@@ -378,7 +378,7 @@ mod tests {
             (b"# OFF 8 6 12", None),
             (b"ply wood", Some(Format::Ply)),
             (b"plywood", None),
-            (b"{\"message\":\"Not Found\"}", None),
+            (b"{\"message\":\"Not FoundKinds\"}", None),
             (b"v 0 0 0\n", None),
             (b"", None),
         ] {
@@ -433,7 +433,7 @@ mod tests {
         assert_eq!(told("s p\ng o\n"), None);
         assert_eq!(told(""), None);
         assert!(check_obj(b"o\n").is_ok());
-        let error = check_obj(b"\n# a\nNot Found\nat all\n").unwrap_err();
+        let error = check_obj(b"\n# a\nNot FoundKinds\nat all\n").unwrap_err();
         assert!(error.to_string().contains("the first starts with \"Not\""));
     }
 

@@ -49,6 +49,8 @@ pub(super) struct Entries {
     pub(super) groups: Vec<Group>,
     /// The first primitive with the faces of each mesh. They rise.
     pub(super) first_primitives: Vec<PrimitiveNumber>,
+    /// The other primitives with the faces of a mesh, each with the first.
+    pub(super) repeated: BTreeMap<PrimitiveNumber, PrimitiveNumber>,
     /// The largest vertex number in each mesh, if it has faces.
     largest_vertex: Vec<Option<u32>>,
     /// For each group whose vertices stay: why, and the first primitive that this was found at.
@@ -75,7 +77,11 @@ impl Entries {
             if let Some(corners) = corner_records(primitive) {
                 // Its mesh, which is there if an earlier primitive has the same corners.
                 let mesh = match mesh_of.get(&corners) {
-                    Some(&mesh) => mesh,
+                    Some(&mesh) => {
+                        let first = entries.first_primitives[mesh];
+                        entries.repeated.insert(primitive.number, first);
+                        mesh
+                    }
                     None => {
                         let mesh = entries.meshes.len();
                         let name = primitives.name(primitive.number);

@@ -13,6 +13,7 @@
 //! [`primitives`] → [`byte_users`] → [`groups`] → [`entries`] → [`patch`] → [`output`];
 //! [`notes`] says what stays as it is. Values are read on request: [`attributes`] → [`elements`].
 //! Strips are made lists before all else, if that is asked for: [`strips`].
+//! [`mod@unlisted`] names what is neither in the meshes nor in their attributes.
 //! [`companions`] are the files that it names beside these; [`neighbours`] asks who else names a buffer.
 //! What is left out goes through [`select`]: [`leaving`] moves up the records that stay, [`byte_map`] says
 //! where the rest then stands, [`stated_bounds`] has the smallest and largest values.
@@ -82,6 +83,7 @@ mod sparse;
 mod stated_bounds;
 mod strided_records;
 mod strips;
+mod unlisted;
 mod uri;
 
 use std::collections::BTreeMap;
@@ -101,6 +103,7 @@ use super::options::ReadOptions;
 use super::placing::{Beside, Placed};
 use super::select::SelectPlan;
 use super::surroundings::Surroundings;
+use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::limits::Limits;
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -134,6 +137,8 @@ struct View {
     companions: Vec<PathBuf>,
     entries: Entries,
     attributes: Attributes,
+    /// The name of the first primitive with faces that are in no mesh.
+    unread_faces: Option<String>,
 }
 
 /// Reads a `.gltf` or `.glb` of this name, and the buffers beside it.
@@ -208,6 +213,7 @@ fn look(
         companions: companions.files.into_iter().collect(),
         entries,
         attributes,
+        unread_faces: primitives.unread_faces(),
     };
     Ok((view, notes))
 }
@@ -371,6 +377,10 @@ impl Content for GltfFile {
 
     fn store(&self, mesh: usize, info: &AttributeInfo) -> Option<usize> {
         self.view.attributes.store(mesh, info, self.json())
+    }
+
+    fn unlisted(&self) -> Vec<Unlisted> {
+        self.found_unlisted().into_list()
     }
 
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>) {

@@ -51,6 +51,19 @@ impl Primitives {
         }
     }
 
+    /// The name of the first one with faces that are in no mesh.
+    pub(super) fn unread_faces(&self) -> Option<String> {
+        let movable = self.movable.iter();
+        let movable = movable.filter_map(|primitive| match primitive.draws {
+            Draws::Other(why) if may_draw_faces(why) => Some(primitive.number),
+            _ => None,
+        });
+        let staying = self.staying.iter();
+        let staying = staying.filter(|staying| may_draw_faces(&staying.why));
+        let first = movable.chain(staying.map(|it| it.number)).min()?;
+        Some(self.name(first))
+    }
+
     pub(super) fn read(
         root: &Object,
         accessors: &Accessors,

@@ -41,7 +41,7 @@
 //! [`reader`] finds the statements and [`statement`] cuts them, [`runs`] and [`state`] tell which faces
 //! may change places, [`comments`] keeps data in comments,
 //! [`mod@materials`] and [`paths`] read the other files that it names, [`notation`] writes corners, [`select`] what a
-//! selection leaves, [`mod@create`] new meshes, [`attributes`] reads values.
+//! selection leaves, [`mod@create`] new meshes, [`attributes`] reads values, [`mod@unlisted`] names the rest.
 
 mod attributes;
 mod comments;
@@ -57,6 +57,7 @@ mod runs;
 mod select;
 mod state;
 mod statement;
+mod unlisted;
 
 use crate::Mesh;
 use crate::files::bonds::Bonds;

@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use super::attributes::ObjAttributes;
 use super::materials::KnownMaterials;
+use super::unlisted::unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::files::definitions::Definitions;
 use crate::files::error::Problem;
 use crate::files::rewrite::{Notation, Rewrite, StoredMesh};
 use crate::files::slots::Spans;
 use crate::files::text::{Tokens, leading_number, push_number};
+use crate::files::unlisted::FoundKinds;
 
 /// How corners stand in `f`, `l` and `p` lines.
 pub(super) struct ObjNotation {
@@ -97,6 +99,10 @@ impl Notation for ObjNotation {
         info: &AttributeInfo,
     ) -> Result<Attribute, Problem> {
         self.attributes.read(stored, info)
+    }
+
+    fn unlisted(&self, stored: &StoredMesh<'_>) -> FoundKinds {
+        unlisted(stored.source, &self.attributes)
     }
 }
 

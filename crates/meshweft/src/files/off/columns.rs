@@ -75,7 +75,7 @@ pub(super) struct OffColumn {
     /// How many numbers stand before it; of a face, after its corners.
     skipped: usize,
     /// How many numbers it has on the line: components beyond are zeros.
-    stored: usize,
+    pub(super) stored: usize,
 }
 
 /// The attributes of a file, by its header and the colours that were found.

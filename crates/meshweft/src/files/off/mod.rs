@@ -33,6 +33,7 @@ mod lines;
 mod notation;
 mod records;
 mod select;
+mod unlisted;
 
 use super::bonds::Bonds;
 use super::content::ReadResult;

@@ -3,10 +3,12 @@
 use super::columns::OffColumn;
 use super::header::CountSpans;
 use super::lines::FreeTokens;
+use super::unlisted::unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::files::error::{Problem, no_attribute};
 use crate::files::rewrite::{Notation, Rewrite, StoredMesh, vertex_from_zero};
 use crate::files::text::whole_number;
+use crate::files::unlisted::FoundKinds;
 
 /// How corners stand in face lines: after their number. And what else lines hold.
 pub(super) struct OffNotation {
@@ -40,5 +42,13 @@ impl Notation for OffNotation {
         let column = columns.find(|column| column.info == *info);
         let column = column.ok_or_else(|| no_attribute(info))?;
         column.read(stored)
+    }
+
+    fn unlisted(&self, stored: &StoredMesh<'_>) -> FoundKinds {
+        unlisted(
+            stored.source,
+            [stored.vertices, stored.faces],
+            &self.columns,
+        )
     }
 }

@@ -26,7 +26,7 @@
 //!
 //! [`header`] says what is in the file, [`plan`] what may move, [`rows`] reads values and [`body`]
 //! whole elements, [`notation`] writes corners, [`attributes`] reads what is stored with them, as
-//! the types of [`number`]. [`select`] writes what a selection leaves. [`strips`] makes faces of strips, [`mod@create`] a file of a new mesh.
+//! the types of [`number`]; [`mod@unlisted`] names the rest. [`select`] writes what a selection leaves. [`strips`] makes faces of strips, [`mod@create`] a file of a new mesh.
 
 mod attributes;
 mod body;
@@ -38,6 +38,7 @@ mod plan;
 mod rows;
 mod select;
 mod strips;
+mod unlisted;
 
 use crate::Mesh;
 use crate::files::bonds::Bonds;

@@ -3,10 +3,12 @@
 use super::attributes::PlyAttributes;
 use super::header::{COMPANION, Element, Encoding, PlyHeader, PropertyKind};
 use super::rows::{Ascii, Binary, PlyRows, Row};
+use super::unlisted::unlisted;
 use crate::attribute::{Attribute, AttributeInfo, ComponentType};
 use crate::files::error::Problem;
 use crate::files::rewrite::{Change, Notation, Rewrite, StoredMesh, vertex_from_zero};
 use crate::files::text::Tokens;
+use crate::files::unlisted::FoundKinds;
 
 /// How corners stand in face rows, and what else rows hold.
 pub(super) struct PlyNotation {
@@ -243,5 +245,9 @@ impl Notation for PlyNotation {
         info: &AttributeInfo,
     ) -> Result<Attribute, Problem> {
         self.stored_values().read(stored, info)
+    }
+
+    fn unlisted(&self, stored: &StoredMesh<'_>) -> FoundKinds {
+        unlisted(stored.source, self.has_texture)
     }
 }

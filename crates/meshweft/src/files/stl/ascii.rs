@@ -17,6 +17,7 @@ use crate::files::slots::Spans;
 use crate::files::text::{
     Tokens, content_end, coordinate, is_blank, is_line_end, line_end, line_of, shown, trimmed,
 };
+use crate::files::unlisted::FoundKinds;
 use crate::index::index32;
 use crate::limits::Limits;
 
@@ -285,6 +286,14 @@ impl Notation for AsciiNotation {
             return Err(no_attribute(info));
         };
         Ok(Attribute::new(info.clone(), Values::F32(numbers)))
+    }
+
+    fn unlisted(&self, stored: &StoredMesh<'_>) -> FoundKinds {
+        let mut found = FoundKinds::default();
+        if stored.entry.runs.len() > 1 {
+            found.add("several solids");
+        }
+        found
     }
 }
 

@@ -11,6 +11,7 @@ use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::face_records::check_face_count;
 use crate::files::rewrite::{Notation, Rewrite, StoredMesh};
 use crate::files::slots::Spans;
+use crate::files::unlisted::FoundKinds;
 use crate::limits::Limits;
 
 /// Where the first facet starts: after the header and the count.
@@ -146,5 +147,20 @@ impl Notation for BinaryNotation {
             return Err(no_attribute(info));
         };
         Ok(Attribute::new(info.clone(), values))
+    }
+
+    /// Of the header, which is text, some programs read a color and a material of the whole mesh.
+    fn unlisted(&self, stored: &StoredMesh<'_>) -> FoundKinds {
+        let mut found = FoundKinds::default();
+        let header = &stored.source[..stored.source.len().min(HEADER)];
+        for (word, what) in [
+            (&b"COLOR="[..], "a color in the header (COLOR=)"),
+            (b"MATERIAL=", "a material in the header (MATERIAL=)"),
+        ] {
+            if header.windows(word.len()).any(|it| it == word) {
+                found.add(what);
+            }
+        }
+        found
     }
 }

@@ -27,8 +27,9 @@ mod lists;
 mod nodes;
 mod reader;
 mod scene;
+mod unlisted;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::Path;
 use std::{fmt, io};
@@ -44,7 +45,8 @@ use super::placing::Placed;
 use super::rewrite::{Change, Rewrite};
 use super::slots::Spans;
 use super::splice::{Layer, splice};
-use super::text::{content_end, is_line_end};
+use super::text::{content_end, is_line_end, line_of};
+use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::permutation::{FaceOrder, VertexOrder};
 use attributes::{RoleValues, ValueReader};
@@ -99,6 +101,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
     }
 
     let shared = binder.shared;
+    let unread = said.first_mesh().map(|at| line_of(&bytes, at));
     let mut notes = said.notes(&bytes);
     if entries.is_empty() && notes.is_empty() {
         notes.push(Note::nothing_to_order());
@@ -108,6 +111,7 @@ pub(super) fn read(bytes: Vec<u8>, options: &ReadOptions) -> ReadResult {
         sets,
         shared,
         entries,
+        unread,
     };
     Ok((Box::new(file), notes))
 }
@@ -174,6 +178,13 @@ impl Said {
         *count += 1;
     }
 
+    /// Where the first mesh stands that stays as it is.
+    fn first_mesh(&self) -> Option<usize> {
+        let meshes = self.0.iter();
+        let meshes = meshes.filter(|(what, _)| matches!(what, Stays::Mesh(_)));
+        meshes.map(|(_, &(at, _))| at).min()
+    }
+
     /// The notes, in the order of the text. Its lines are counted once for all.
     fn notes(self, text: &[u8]) -> Vec<Note> {
         let mut said: Vec<_> = self.0.into_iter().collect();
@@ -212,6 +223,8 @@ struct VrmlFile {
     shared: Vec<Option<Spans>>,
     /// One a set.
     entries: Vec<MeshEntry>,
+    /// The line of the first face set that is no mesh.
+    unread: Option<usize>,
 }
 
 impl VrmlFile {
@@ -326,6 +339,19 @@ impl Content for VrmlFile {
         let read = reader.read(values);
         let read = read.map_err(|fault| fault.on_its_line(&self.source))?;
         Ok(Attribute::new(info.clone(), Values::F32(read)))
+    }
+
+    fn unlisted(&self) -> Vec<Unlisted> {
+        let meshes = 0..self.sets.len();
+        let listed: Vec<_> = meshes.flat_map(|mesh| self.attributes(mesh)).collect();
+        let listed = listed.into_iter().map(|info| info.semantic);
+        let text = &self.source[..content_end(&self.source)];
+        let start = header(&self.source).unwrap_or(0);
+        let mut found = unlisted::unlisted(text, start, &listed.collect::<BTreeSet<_>>());
+        if let Some(line) = self.unread {
+            found.add_faces(format!("the face set on line {line}"));
+        }
+        found.into_list()
     }
 
     fn order(&mut self, mesh: usize, faces: Option<&FaceOrder>, vertices: Option<&VertexOrder>) {

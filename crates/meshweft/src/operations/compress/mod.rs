@@ -28,12 +28,13 @@ pub use report::{CompressReport, CompressedMesh};
 /// Compresses the positions, faces and polygons of a document's meshes, and decodes them again to see that nothing was lost.
 ///
 /// Each mesh keeps its name, its faces and its vertices. Of meshes that share vertices, as two primitives of a glTF
-/// may, each gets those that its faces have, and the first also those that none has. Materials and nodes are not
-/// kept.
+/// may, each gets those that its faces have, and the first also those that none has. A document that holds anything else
+/// is refused, unless the options say that it is left out: attributes, what is said of some faces only (groups, materials),
+/// lines, nodes with a place, everything that is not known. Comments, header text and how numbers are written do not count.
 ///
 /// # Errors
-/// The document has no mesh, or one that is not all positions and triangles, or positions that cannot be stored
-/// as the options say.
+/// The document has no mesh, or one that is not all positions and triangles, or more than these, or positions that cannot
+/// be stored as the options say.
 ///
 /// # Complexity
 /// Time O(vertices + faces log valence), 29 times over to choose a first vertex; space about 150 bytes a face of the largest mesh.
@@ -139,6 +140,13 @@ fn is_power_of_two(step: f64) -> bool {
 /// Whether everything of a document can be compressed, but for what the options leave out.
 fn check(document: &Document, options: &CompressOptions) -> Result<(), CompressError> {
     let file = || document.path().to_owned();
+    let mut unlisted = document.unlisted();
+    if let Some(unread) = unlisted.iter().find(|it| it.has_faces) {
+        return Err(CompressError::UnreadFaces {
+            file: file(),
+            mesh: unread.what.clone(),
+        });
+    }
     let entries = document.meshes();
     if entries.is_empty() {
         return Err(CompressError::NoMesh { file: file() });
@@ -176,11 +184,13 @@ fn check(document: &Document, options: &CompressOptions) -> Result<(), CompressE
             others.push((mesh(), rest));
         }
     }
-    match others.is_empty() || options.drop_attributes {
+    let is_all = others.is_empty() && unlisted.is_empty();
+    match is_all || options.drop_attributes {
         true => Ok(()),
         false => Err(CompressError::Attributes {
             file: file(),
             attributes: others,
+            others: unlisted.drain(..).map(|it| it.what).collect(),
         }),
     }
 }

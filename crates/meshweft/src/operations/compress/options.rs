@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use crate::attribute::AttributeInfo;
+use crate::attribute::{AttributeInfo, Domain};
 use crate::compression::{CodeError, KeepOrder, Tier};
 use crate::connectivity::FirstVertex;
 use crate::error::MeshError;
@@ -21,7 +21,7 @@ pub struct CompressOptions {
     pub first_vertex: FirstVertex,
     /// What of the order of the file is stored.
     pub keep_order: KeepOrder,
-    /// Leave out what the file stores with vertices, corners and faces, but for positions.
+    /// Leave out whatever is not the name of a mesh, a position or a face: attributes, materials, groups, lines, nodes.
     pub drop_attributes: bool,
     /// Store polygons as the triangles that they are drawn as.
     pub triangles: bool,
@@ -45,12 +45,14 @@ pub enum PositionPrecision {
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum CompressError {
-    /// A mesh stores what cannot be compressed yet.
+    /// The file holds what cannot be compressed yet.
     Attributes {
         /// The file.
         file: PathBuf,
-        /// What it stores, by mesh.
+        /// What meshes store, by mesh.
         attributes: Vec<(String, Vec<AttributeInfo>)>,
+        /// What else there is, in the words of the format.
+        others: Vec<String>,
     },
     /// A mesh has faces of fewer than three corners, which have no triangles.
     Lines {
@@ -105,19 +107,24 @@ pub enum CompressError {
 impl fmt::Display for CompressError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Attributes { file, attributes } => {
+            Self::Attributes {
+                file,
+                attributes,
+                others,
+            } => {
+                let of_mesh = attributes.iter().map(|(mesh, attributes)| {
+                    let names: Vec<String> = attributes.iter().map(name_of).collect();
+                    format!("{mesh} also stores {}", names.join(", "))
+                });
+                let others = (!others.is_empty())
+                    .then(|| format!("the file also has {}", others.join(", ")));
+                let all: Vec<String> = of_mesh.chain(others).collect();
                 write!(
                     f,
-                    "{}: positions and faces are compressed, and",
-                    file.display()
-                )?;
-                for (number, (mesh, attributes)) in attributes.iter().enumerate() {
-                    let comma = if number > 0 { ";" } else { "" };
-                    let names = attributes.iter().map(name_of);
-                    let names: Vec<String> = names.collect();
-                    write!(f, "{comma} {mesh} also stores {}", names.join(", "))?;
-                }
-                write!(f, ". Leave them out with drop_attributes")
+                    "{}: positions and faces are compressed, and {}. Leave them out with drop_attributes",
+                    file.display(),
+                    all.join("; ")
+                )
             }
             Self::Lines { file, mesh } => write!(
                 f,
@@ -127,8 +134,8 @@ impl fmt::Display for CompressError {
             ),
             Self::UnreadFaces { file, mesh } => write!(
                 f,
-                "{}: {mesh} has faces that cannot be read (strips, fans, or compressed ones), so it cannot be compressed \
-                 whole. Convert the file to lists of triangles",
+                "{}: {mesh} has faces that cannot be read (strips, fans, compressed ones, or a list of another mesh with \
+                 other positions), so it cannot be compressed whole. Convert the file to lists of triangles",
                 file.display()
             ),
             Self::NoMesh { file } => {
@@ -176,8 +183,10 @@ impl From<FileError> for CompressError {
 
 /// What an attribute is called.
 fn name_of(info: &AttributeInfo) -> String {
-    match info.morph_target {
-        Some(target) => format!("{} of morph target {target}", info.semantic),
-        None => info.semantic.to_string(),
+    let name = &info.semantic;
+    match (info.morph_target, info.domain) {
+        (Some(target), _) => format!("{name} of morph target {target}"),
+        (None, Domain::Face) => format!("{name} of faces"),
+        (None, _) => name.to_string(),
     }
 }
