@@ -1,4 +1,4 @@
-//! What plain files hold, read here without the library: OBJ, PLY, OFF.
+//! What plain files hold, read here without the library: OBJ, PLY, OFF, STL.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -39,6 +39,7 @@ pub(super) fn contents(path: &Path) -> Option<Contents> {
         "obj" => contents.obj(&String::from_utf8_lossy(&bytes)),
         "off" => contents.off(&String::from_utf8_lossy(&bytes)),
         "ply" => contents.ply(&bytes),
+        "stl" => contents.stl(&bytes),
         _ => None,
     }?;
     for face in &mut contents.faces {
@@ -167,6 +168,53 @@ impl Contents {
             }
             if count < 3 {
                 self.other("short faces", &["fewer than three"]);
+            }
+        }
+        Some(())
+    }
+
+    fn stl(&mut self, bytes: &[u8]) -> Option<()> {
+        // Facets of twelve numbers.
+        let mut facets: Vec<Vec<f32>> = Vec::new();
+        let text = String::from_utf8_lossy(bytes);
+        if text.starts_with("solid") && text.contains("facet normal") {
+            let words = text.split_whitespace();
+            let numbers = words.filter_map(|word| word.parse().ok());
+            let numbers: Vec<f32> = numbers.collect();
+            facets.extend(numbers.chunks_exact(12).map(<[f32]>::to_vec));
+            if text.matches("endsolid").count() > 1 {
+                self.other("solids", &["several solids"]);
+            }
+        } else {
+            for facet in bytes.get(84..)?.chunks_exact(50) {
+                let numbers = facet[..48].as_chunks().0;
+                facets.push(numbers.iter().map(|it| f32::from_le_bytes(*it)).collect());
+                if facet[48..] != [0, 0] {
+                    self.other("two bytes", &["attribute of faces"]);
+                }
+            }
+        }
+
+        // Positions by their bits, and normals that turn away from those of their corners.
+        let corner = |facet: &[f32], at: usize| [0, 1, 2].map(|axis| facet[3 * at + axis]);
+        let bits = |facet: &[f32], at: usize| corner(facet, at).map(f32::to_bits);
+        let all = facets.iter();
+        let all = all.flat_map(|facet| [1, 2, 3].map(|at| bits(facet, at)));
+        let unique: BTreeSet<[u32; 3]> = all.collect();
+        self.positions = unique.into_iter().collect();
+        for facet in &facets {
+            let corners = [1, 2, 3].map(|at| self.positions.binary_search(&bits(facet, at)));
+            self.faces
+                .push(corners.into_iter().collect::<Result<_, _>>().ok()?);
+            let [normal, a, b, c] = [0, 1, 2, 3].map(|at| corner(facet, at).map(f64::from));
+            let side = |to: [f64; 3]| [0, 1, 2].map(|axis| to[axis] - a[axis]);
+            let ([ux, uy, uz], [vx, vy, vz]) = (side(b), side(c));
+            let cross = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+            let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            let (area, length) = (dot(cross, cross).sqrt(), dot(normal, normal).sqrt());
+            let is_other = dot(normal, cross) < 0.999 * area || (length - 1.0).abs() > 0.02;
+            if length > 0.0 && area > 0.0 && is_other {
+                self.other("normals", &["NORMAL of faces"]);
             }
         }
         Some(())

@@ -28,7 +28,7 @@ const STORAGE: [&str; 10] = [
 ];
 
 impl GltfFile {
-    /// See [`Content::unlisted`](crate::files::content::Content::unlisted). Time O(JSON log JSON).
+    /// See [`Content::unlisted`]. Time O(JSON log JSON).
     pub(super) fn found_unlisted(&self) -> FoundKinds {
         let mut found = FoundKinds::default();
         if let Some(name) = &self.view.unread_faces {

@@ -1,6 +1,7 @@
 //! A document as an archive of compressed meshes, and back.
 
 mod decompress;
+mod facets;
 mod options;
 mod report;
 
@@ -22,6 +23,7 @@ use crate::permutation::{FaceOrder, VertexOrder};
 
 pub use crate::compression::{KeepOrder, PolygonCounts, Tier};
 pub use decompress::{DecodedOrder, DecompressOptions, DecompressedMesh, decompress};
+use facets::says_nothing;
 pub use options::{CompressError, CompressOptions, PositionPrecision};
 pub use report::{CompressReport, CompressedMesh};
 
@@ -168,7 +170,7 @@ fn check(document: &Document, options: &CompressOptions) -> Result<(), CompressE
             });
         }
 
-        let (positions, rest): (Vec<_>, Vec<_>) = document
+        let (positions, mut rest): (Vec<_>, Vec<_>) = document
             .attributes(number)
             .into_iter()
             .partition(|info| info.semantic == Semantic::Position && info.morph_target.is_none());
@@ -179,6 +181,15 @@ fn check(document: &Document, options: &CompressOptions) -> Result<(), CompressE
                 file: file(),
                 mesh: mesh(),
             });
+        }
+        if !options.drop_attributes {
+            let mut said = Vec::new();
+            for info in rest {
+                if !says_nothing(document, number, &info)? {
+                    said.push(info);
+                }
+            }
+            rest = said;
         }
         if !rest.is_empty() {
             others.push((mesh(), rest));
