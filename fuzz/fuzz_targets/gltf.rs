@@ -3,6 +3,7 @@
 //! or nothing changes.
 #![no_main]
 
+mod compressed;
 mod selection;
 
 use std::path::Path;
@@ -34,6 +35,7 @@ fn check(data: &[u8], format: Format, path: &Path) {
         return;
     };
     assert_eq!(main_bytes(&document), data);
+    compressed::check(&document);
     reverse(&mut document);
     assert_same(&document, &written(&document));
     if let Ok(mut document) = Document::from_bytes(data.to_vec(), format, path, Limits::default()) {

@@ -2,6 +2,8 @@
 //! runs, the vertices last first, read again, are the same triangles, in each mesh. Then some of the
 //! faces are selected.
 
+#[path = "../compressed/mod.rs"]
+mod compressed;
 #[path = "../selection/mod.rs"]
 mod selection;
 
@@ -24,6 +26,7 @@ pub(crate) fn check(data: &[u8], format: Format, name: &str) {
     };
     let unchanged = document.to_main_bytes().expect("a name of the same format");
     assert_eq!(unchanged, data, "a file is written as it was read");
+    compressed::check(&document);
     let mut before = Vec::new();
     for mesh in 0..document.meshes().len() {
         let entry = &document.meshes()[mesh];
