@@ -17,6 +17,8 @@
 //! positions, which are expected by additions of `f32` that are the same everywhere.
 
 mod archive;
+#[cfg(test)]
+mod damage_tests;
 mod decoded_mesh;
 mod mesh_code;
 mod mesh_decoder;

@@ -11,7 +11,7 @@ use crate::mesh::Mesh;
 use crate::random::SplitMix64;
 
 /// A mesh of any faces, with positions that any bits may be.
-fn any_mesh(random: &mut SplitMix64) -> Mesh {
+pub(super) fn any_mesh(random: &mut SplitMix64) -> Mesh {
     let (faces, vertex_count) = soup(random);
     let is_wild = random.below(4) == 0;
     let mut coordinate = || match is_wild {
@@ -27,7 +27,7 @@ fn any_mesh(random: &mut SplitMix64) -> Mesh {
     Mesh::new(positions, faces).unwrap()
 }
 
-fn ways(mesh: &Mesh) -> [PositionCoding; 3] {
+pub(super) fn ways(mesh: &Mesh) -> [PositionCoding; 3] {
     let of_bits = Lattice::of_bits(mesh.positions().to_vec(), 14).unwrap();
     [
         PositionCoding::Lossless,
@@ -58,7 +58,7 @@ fn expected(mesh: &Mesh, code: &MeshCode, positions: PositionCoding) -> Mesh {
 }
 
 /// A number that a long run by hand gives: `MESHWEFT_CASES` meshes from `MESHWEFT_SEED`.
-fn from_environment(name: &str, usual: u64) -> u64 {
+pub(super) fn from_environment(name: &str, usual: u64) -> u64 {
     match std::env::var(name) {
         Ok(text) => text
             .parse()
@@ -125,7 +125,7 @@ fn comes_back(mesh: &Mesh, options: &CodeOptions) -> bool {
     true
 }
 
-const KEPT: [KeepOrder; 4] = [
+pub(super) const KEPT: [KeepOrder; 4] = [
     KeepOrder::Nothing,
     KeepOrder::Faces,
     KeepOrder::Vertices,
@@ -334,42 +334,4 @@ fn limits_hold_before_anything_is_decoded() {
         error.kind,
         DecodeErrorKind::AboveLimit { what, said, limit }
     );
-}
-
-#[test]
-fn damaged_bytes_give_an_error_or_a_mesh() {
-    let mut random = SplitMix64(5);
-    for case in 0..500 {
-        let mesh = any_mesh(&mut random);
-        let positions = ways(&mesh)[random.below(2)];
-        let options = CodeOptions {
-            tier: Tier::ALL[random.below(Tier::ALL.len())],
-            positions,
-            keep_order: KEPT[case % 4],
-            ..Default::default()
-        };
-        let Ok(code) = MeshCode::new(&mesh, &options) else {
-            continue;
-        };
-        for _ in 0..20 {
-            let mut damaged = code.bytes().to_vec();
-            for _ in 0..=random.below(3) {
-                match (random.below(3), damaged.len()) {
-                    (_, 0) => damaged.push(7),
-                    (0, length) => damaged.truncate(random.below(length)),
-                    (1, length) => damaged[random.below(length)] ^= 1 << random.below(8),
-                    (_, length) => damaged.insert(random.below(length), 1 << random.below(8)),
-                }
-            }
-            let limits = Limits {
-                vertices: 1000,
-                faces: 1000,
-                ..Limits::default()
-            };
-            if let Ok(decoded) = MeshCode::decode(&damaged, limits) {
-                let is_there = |&vertex: &u32| (vertex as usize) < decoded.vertex_count();
-                assert!(decoded.faces().as_flattened().iter().all(is_there));
-            }
-        }
-    }
 }
