@@ -48,6 +48,7 @@ pub mod bits;
 pub mod cache;
 pub mod compression;
 pub mod connectivity;
+pub mod culling;
 mod error;
 mod faces;
 #[cfg(feature = "files")]

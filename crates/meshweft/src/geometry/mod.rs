@@ -1,5 +1,7 @@
 //! Positions and directions in space, as plain arrays; how far surfaces are from each other.
 
+pub(crate) mod angle;
+mod ball;
 mod deviation;
 pub(crate) mod double;
 mod lattice;
@@ -9,6 +11,7 @@ mod surface;
 pub(crate) mod triangle;
 mod vector;
 
+pub use ball::Ball;
 pub use deviation::{Deviation, Distances, deviation};
 pub use lattice::Lattice;
 pub use normals::vertex_normals;

@@ -7,7 +7,7 @@ use crate::sources::Sources;
 
 /// The rooms from the ground up, with the groups of rooms that each may name beside itself: only
 /// such as stand above it in this list, so that every arrow points one way.
-const ROOMS: [(&str, &[&[&str]]); 22] = [
+const ROOMS: [(&str, &[&[&str]]); 23] = [
     ("error", &[]),
     ("index", &[&["error"]]),
     ("limits", &[BOUNDS]),
@@ -33,6 +33,7 @@ const ROOMS: [(&str, &[&[&str]]); 22] = [
         "compression",
         &[GROUND, VALUES, &["bits", "connectivity", "topology"]],
     ),
+    ("culling", &[GROUND, VALUES, ALGORITHMS, &["order"]]),
     // Readers and writers know no algorithm, and no algorithm knows them.
     ("files", &[GROUND, VALUES]),
     // The only place that joins both.
