@@ -4,6 +4,8 @@
 
 #[path = "data/folder.rs"]
 mod data;
+#[path = "data/files.rs"]
+mod files;
 
 use meshweft::attribute::{Attribute, Semantic};
 use meshweft::cache;
@@ -40,14 +42,8 @@ fn corners(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> Vec<[[u32; 3]; 3]> {
 #[test]
 fn every_file_at_hand_comes_back_from_either_precision() {
     let Some(folder) = data::folder() else { return };
-    let mut paths: Vec<_> = std::fs::read_dir(folder.join("meshes"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| Format::of_path(path).is_some())
-        .collect();
-    paths.sort();
     let mut done = 0;
-    for path in paths {
+    for path in files::mesh_files(&folder) {
         let document = Document::open(&path, ReadOptions::default()).unwrap();
         let faces: usize = document
             .meshes()

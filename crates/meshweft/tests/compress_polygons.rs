@@ -4,6 +4,8 @@
 
 #[path = "data/folder.rs"]
 mod data;
+#[path = "data/files.rs"]
+mod files;
 
 use std::collections::BTreeMap;
 
@@ -57,14 +59,8 @@ fn documents() -> Vec<(String, Document)> {
     let Some(folder) = data::folder() else {
         return Vec::new();
     };
-    let mut paths: Vec<_> = std::fs::read_dir(folder.join("meshes"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| Format::of_path(path).is_some())
-        .collect();
-    paths.sort();
     let mut documents = Vec::new();
-    for path in paths {
+    for path in files::mesh_files(&folder) {
         let document = Document::open(&path, ReadOptions::default()).unwrap();
         if document.meshes().iter().any(|mesh| mesh.polygons.is_some()) {
             let name = path.file_name().unwrap().to_string_lossy().into_owned();

@@ -4,13 +4,14 @@
 
 #[path = "data/folder.rs"]
 mod data;
+#[path = "data/placed.rs"]
+mod placed;
 
 use std::f64::consts::{PI, TAU};
-use std::path::Path;
 
+use meshweft::Mesh;
 use meshweft::culling::{Eye, NormalStripes, Ranges, StripedFaces};
-use meshweft::files::Document;
-use meshweft::{Limits, Mesh};
+use placed::open;
 
 /// Closed surfaces.
 const MESHES: [&str; 4] = [
@@ -24,12 +25,6 @@ const MESHES: [&str; 4] = [
 const DIRECTIONS: u32 = 1024;
 
 type Vector = [f64; 3];
-
-fn open(folder: &Path, name: &str) -> Mesh {
-    let document = Document::open(&folder.join("meshes").join(name), Limits::default()).unwrap();
-    let positions = document.positions(0).unwrap().unwrap();
-    Mesh::new(positions, document.meshes()[0].mesh.faces().to_vec()).unwrap()
-}
 
 /// A sphere by rings, with triangles at the poles.
 fn sphere(rings: u32, around: u32) -> Mesh {

@@ -3,22 +3,15 @@
 
 #[path = "data/folder.rs"]
 mod data;
-
-use std::path::Path;
+#[path = "data/placed.rs"]
+mod placed;
 
 use meshweft::connectivity::{
     FanCode, FirstVertex, Membership, MinimumTimeRendering, TrimmedListCode, WindowOrder,
     WindowSize, released_buffer_size,
 };
-use meshweft::files::Document;
-use meshweft::{CacheModel, Limits, Mesh, Permutation, cache};
-
-/// The first mesh of a file, with its positions: a first vertex is looked for at their extremes.
-fn open(folder: &Path, name: &str) -> Mesh {
-    let document = Document::open(&folder.join("meshes").join(name), Limits::default()).unwrap();
-    let positions = document.positions(0).unwrap().unwrap();
-    Mesh::new(positions, document.meshes()[0].mesh.faces().to_vec()).unwrap()
-}
+use meshweft::{CacheModel, Mesh, Permutation, cache};
+use placed::open;
 
 /// Bits per face of the paper's code.
 fn bits_per_face(mesh: &Mesh, first: u32) -> f64 {

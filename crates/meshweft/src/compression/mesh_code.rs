@@ -30,7 +30,7 @@ pub struct PolygonCounts {
     /// Those that come back.
     pub kept: usize,
     /// Those that come back as the triangles that they were cut into: an edge between two of these has other faces too,
-    /// or faces that are turned over; or they are no fan around the first corner.
+    /// or faces that are turned over; or they are not a fan around the first corner.
     pub cut: usize,
 }
 
@@ -86,8 +86,7 @@ impl MeshCode {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(mesh: &Mesh, options: &CodeOptions) -> Result<Self, CodeError> {
-        let starts: Vec<u32> = (0..=index32(mesh.face_count())).collect();
-        Self::of_polygons(mesh, &starts, options)
+        Self::with_starts(mesh, None, options)
     }
 
     /// Compresses any mesh together with the polygons that its faces were cut from: faces `starts[i]..starts[i + 1]` are
@@ -121,6 +120,15 @@ impl MeshCode {
         starts: &[u32],
         options: &CodeOptions,
     ) -> Result<Self, CodeError> {
+        Self::with_starts(mesh, Some(starts), options)
+    }
+
+    /// Compresses a mesh of triangles, or of the polygons that start at some of its faces.
+    fn with_starts(
+        mesh: &Mesh,
+        starts: Option<&[u32]>,
+        options: &CodeOptions,
+    ) -> Result<Self, CodeError> {
         let vertex_count = mesh.vertex_count();
         if mesh.positions().len() != vertex_count {
             return Err(CodeError::NoPositions);
@@ -132,9 +140,11 @@ impl MeshCode {
                 vertex_count,
             });
         }
-        let ends = starts.first().zip(starts.last());
-        if ends != Some((&0, &index32(mesh.face_count()))) || !starts.is_sorted() {
-            return Err(CodeError::PolygonStarts);
+        if let Some(starts) = starts {
+            let ends = starts.first().zip(starts.last());
+            if ends != Some((&0, &index32(mesh.face_count()))) || !starts.is_sorted() {
+                return Err(CodeError::PolygonStarts);
+            }
         }
 
         // What is before the blocks.
@@ -171,7 +181,9 @@ impl MeshCode {
 
         // Which faces are polygons.
         let (of_faces, of_vertices) = (&blocks.faces, &blocks.vertices);
-        let polygons = polygons(mesh, starts, of_faces, of_vertices);
+        let polygons = starts
+            .map(|starts| polygons(mesh, starts, of_faces, of_vertices))
+            .unwrap_or_default();
         let before = bytes.len();
         if polygons.kept > 0 {
             bytes[1] |= HAS_POLYGONS;

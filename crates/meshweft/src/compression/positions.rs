@@ -18,7 +18,7 @@ const MOST_LEVEL: u32 = 19;
 /// More than that: a power of two.
 const LEVELS: usize = 32;
 
-/// Where no vertex is looked at by what is coded next, so many are coded at once: what they are does not wait for faces.
+/// How many vertices are coded together where the model of faces does not look at them: positions then do not wait for faces.
 const MOST_LATER: usize = 256;
 
 /// Where coordinates are coded, by axis.

@@ -42,7 +42,7 @@ impl Ranges {
         self.ranges.iter().map(draw)
     }
 
-    /// Joins ranges until there are at most so many, with the fewest faces between them.
+    /// Joins ranges until no more than `most` are left, with the fewest faces between them.
     ///
     /// Each join adds the faces of one gap, whatever else is joined: the smallest gaps are the best choice.
     ///

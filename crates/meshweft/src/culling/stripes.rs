@@ -21,7 +21,7 @@ use crate::permutation::{FaceOrder, Permutation};
 /// - The range in which an interval ends is drawn too: faces are known by range, not by longitude.
 /// - An eye in or on the bounding sphere sees everything.
 /// - Faces without an area, or with so little that rounding may have turned their normal, are in no stripe: they come last, and
-///   are always drawn. So are faces with a corner that is no number.
+///   are always drawn. So are faces with a corner that is not finite.
 /// - Faces of a range stay in the order of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NormalStripes {
@@ -57,7 +57,7 @@ const LEAST_NORMAL: f64 = 1.0 / (1_u64 << 30) as f64;
 const MARGIN: f64 = 4e-6;
 
 impl NormalStripes {
-    /// How many stripes a mesh of so many faces gets.
+    /// How many stripes a mesh gets, by its number of faces.
     #[must_use]
     pub fn stripe_count_of(&self, face_count: usize) -> u32 {
         let nearest = || {
@@ -143,7 +143,7 @@ fn normal([a, b, c]: [[f64; 3]; 3]) -> Option<[f64; 3]> {
     let normal = cross(u, v);
     let length = dot(normal, normal).sqrt();
     let products = dot(u, u).sqrt() * dot(v, v).sqrt();
-    // Also false for what is no number.
+    // Also false for NaN.
     let is_known = length > LEAST_NORMAL * products && length < f64::INFINITY;
     is_known.then(|| scaled(normal, 1.0 / length))
 }
@@ -233,7 +233,7 @@ impl StripedFaces {
         let way = sub(point, scaled(center, w));
         let distance = dot(way, way).sqrt();
         let sine = radius * w / distance + MARGIN;
-        // Also false for what is no number.
+        // Also false for NaN.
         if !(sine < 1.0 && distance > 0.0) {
             return None;
         }

@@ -11,7 +11,7 @@ const UNIT: f32 = 1.0 / 4096.0;
 
 fn in_units(x: f32) -> i128 {
     let units = f64::from(x / UNIT);
-    assert_eq!(units, units.round(), "{x} is no multiple");
+    assert_eq!(units, units.round(), "{x} is not a multiple");
     #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
     let units = units as i128;
     units

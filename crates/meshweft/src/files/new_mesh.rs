@@ -85,7 +85,7 @@ impl<'a> NewMesh<'a> {
     /// The corners of each polygon, one after the other: see [`polygons`](Self::polygons).
     ///
     /// # Errors
-    /// The polygons are not all the faces, or one of them is no fan.
+    /// The polygons are not all the faces, or one of them is not a fan.
     pub(super) fn checked_polygons(&self) -> Result<PolygonCorners<'a>, FileErrorKind> {
         PolygonCorners::new(self.faces, self.polygons)
     }

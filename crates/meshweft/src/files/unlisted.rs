@@ -1,7 +1,7 @@
 //! What a file holds that is neither in its meshes nor in their attributes.
 //!
-//! Each format says it in its own words. What is only for people or for the reader of the format is no part
-//! of it: comments, header text, how numbers are written.
+//! Each format says it in its own words. What is only for people or for the reader of the format does not
+//! count: comments, header text, how numbers are written.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ pub(crate) struct Unlisted {
 }
 
 impl Unlisted {
-    /// Something that is no faces.
+    /// Something other than faces.
     pub(super) fn other(what: impl Into<String>) -> Self {
         Self {
             what: what.into(),

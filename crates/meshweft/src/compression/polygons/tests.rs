@@ -363,7 +363,7 @@ fn polygons_that_are_not_all_faces_are_refused() {
         let error = MeshCode::of_polygons(&mesh, starts, &CodeOptions::default()).unwrap_err();
         assert_eq!(error, CodeError::PolygonStarts);
     }
-    // Without faces, and faces that are no fan.
+    // Without faces, and faces that are not a fan.
     let code = |mesh: &Mesh, starts: &[u32]| {
         MeshCode::of_polygons(mesh, starts, &CodeOptions::default()).unwrap()
     };

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::header::{self, Element, PlyHeader, PropertyKind};
 use crate::files::unlisted::FoundKinds;
 
-/// Other elements, and lists that are no corners; `has_texture`: whether the texture coordinates of faces are
+/// Other elements, and lists of something other than corners; `has_texture`: whether the texture coordinates of faces are
 /// listed.
 ///
 /// Time O(header).

@@ -223,7 +223,7 @@ struct VrmlFile {
     shared: Vec<Option<Spans>>,
     /// One a set.
     entries: Vec<MeshEntry>,
-    /// The line of the first face set that is no mesh.
+    /// The line of the first face set that is not a mesh.
     unread: Option<usize>,
 }
 
