@@ -18,11 +18,15 @@
 //! moved by joints or morph targets.
 
 mod eye;
+mod facing;
+mod planes;
 mod ranges;
 mod stripes;
+mod table;
 #[cfg(test)]
 mod tests;
 
-pub use eye::Eye;
+pub use eye::{Eye, EyeBox};
 pub use ranges::Ranges;
 pub use stripes::{NormalStripes, StripedFaces};
+pub use table::CullingTable;

@@ -2,11 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::eye::Eye;
+use super::eye::{Eye, EyeBox};
+use super::facing::{MARGIN, normal};
 use super::ranges::Ranges;
 use crate::geometry::Ball;
 use crate::geometry::angle::{angle, arc_cosine};
-use crate::geometry::double::{cross, dot, scaled, sub, widened};
+use crate::geometry::double::{dot, scaled, widened};
 use crate::index::index32;
 use crate::mesh::Mesh;
 use crate::permutation::{FaceOrder, Permutation};
@@ -49,12 +50,6 @@ const SPHERES: [(usize, u32); 6] = [
     (261_000, 32),
     (1_056_000, 256),
 ];
-
-/// A normal is known if it is at least this part of the products that it comes from: then rounding turns it by less than 2⁻²⁰.
-const LEAST_NORMAL: f64 = 1.0 / (1_u64 << 30) as f64;
-
-/// What rounding may do to an angle, and to the sine of one, many times over.
-const MARGIN: f64 = 4e-6;
 
 impl NormalStripes {
     /// How many stripes a mesh gets, by its number of faces.
@@ -137,17 +132,6 @@ fn part_of(share: f64, parts: u32) -> u32 {
     part.min(parts - 1)
 }
 
-/// The normal of length 1 of a face, if it is known.
-fn normal([a, b, c]: [[f64; 3]; 3]) -> Option<[f64; 3]> {
-    let (u, v) = (sub(b, a), sub(c, a));
-    let normal = cross(u, v);
-    let length = dot(normal, normal).sqrt();
-    let products = dot(u, u).sqrt() * dot(v, v).sqrt();
-    // Also false for NaN.
-    let is_known = length > LEAST_NORMAL * products && length < f64::INFINITY;
-    is_known.then(|| scaled(normal, 1.0 / length))
-}
-
 /// The cosines of latitudes that normals of a stripe have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Band {
@@ -210,8 +194,21 @@ impl StripedFaces {
     /// # Complexity
     /// Time O(stripes); memory only if the ranges have too little room.
     pub fn visible_ranges<'a>(&self, eye: Eye, ranges: &'a mut Ranges) -> &'a Ranges {
+        self.ranges_of(self.view(eye), ranges)
+    }
+
+    /// The faces that may be front faces for some eye in a box, as ranges of the faces in their new order: as by
+    /// [`visible_ranges`](Self::visible_ranges) for the ball around the box.
+    ///
+    /// # Complexity
+    /// As [`visible_ranges`](Self::visible_ranges).
+    pub fn ranges_visible_within<'a>(&self, eyes: EyeBox, ranges: &'a mut Ranges) -> &'a Ranges {
+        self.ranges_of(self.view_within(eyes), ranges)
+    }
+
+    fn ranges_of<'a>(&self, view: Option<BallView>, ranges: &'a mut Ranges) -> &'a Ranges {
         ranges.clear();
-        match self.view(eye) {
+        match view {
             None => ranges.push_all(self.order.len()),
             Some(view) => {
                 for (stripe, band) in (0..).zip(&self.bands) {
@@ -228,12 +225,29 @@ impl StripedFaces {
 
     /// How an eye sees the bounding ball; `None` if it may see everything.
     fn view(&self, eye: Eye) -> Option<BallView> {
-        let (point, w) = eye.parts()?;
-        let Ball { center, radius } = self.ball?;
-        let way = sub(point, scaled(center, w));
+        let origin = self.ball?.center;
+        self.view_of(eye.around(origin)?, [0.0; 3])
+    }
+
+    fn view_within(&self, eyes: EyeBox) -> Option<BallView> {
+        let (middle, half) = eyes.middle(self.ball?.center)?;
+        self.view_of(middle, half)
+    }
+
+    /// How all eyes at most half of a box from one see the ball: from directions that differ by an angle η and with the sine *s*
+    /// at most, what one of them may see has `n · d >= −sin(arcsin s + η)` with the direction *d* of the middle.
+    fn view_of(&self, [x, y, z, w]: [f64; 4], half: [f64; 3]) -> Option<BallView> {
+        let way = [x, y, z];
         let distance = dot(way, way).sqrt();
-        let sine = radius * w / distance + MARGIN;
+        let moved = dot(half, half).sqrt();
+        let near = self.ball?.radius * w / (distance - moved);
+        let turn = moved / distance;
         // Also false for NaN.
+        if !(near >= 0.0 && turn < 1.0 && near * near + turn * turn < 1.0) {
+            return None;
+        }
+        let cosine = |sine: f64| ((1.0 - sine) * (1.0 + sine)).sqrt();
+        let sine = near * cosine(turn) + turn * cosine(near) + MARGIN;
         if !(sine < 1.0 && distance > 0.0) {
             return None;
         }

@@ -1,6 +1,6 @@
 //! No front face is left out, by exact signs.
 
-use super::{Eye, NormalStripes, Ranges};
+use super::{CullingTable, Eye, EyeBox, NormalStripes, Ranges};
 use crate::geometry::Ball;
 use crate::index::index32;
 use crate::mesh::Mesh;
@@ -153,15 +153,7 @@ fn stripes_leave_out_no_front_face() {
     let mut random = SplitMix64(1);
     let mut culled = 0;
     for case in 0..120 {
-        let mesh = match case % 3 {
-            0 => soup(&mut random),
-            _ => {
-                let (rings, around) =
-                    (2 + index32(random.below(12)), 3 + index32(random.below(20)));
-                let rough = [0.0, 1.0, 8.0][random.below(3)];
-                ball(rings, around, rough, random.below(2) == 0, &mut random)
-            }
-        };
+        let mesh = any_mesh(case, &mut random);
         let stripes = NormalStripes {
             stripe_count: Some([1, 2, 4, 16, 64][random.below(5)]),
             range_count: [1, 2, 7, 64, 512][random.below(5)],
@@ -177,6 +169,95 @@ fn stripes_leave_out_no_front_face() {
         }
     }
     assert!(culled > 100_000, "{culled} faces were culled");
+}
+
+/// A rough ball, inside out or not, or a soup.
+fn any_mesh(case: usize, random: &mut SplitMix64) -> Mesh {
+    match case % 3 {
+        0 => soup(random),
+        _ => {
+            let (rings, around) = (2 + index32(random.below(12)), 3 + index32(random.below(20)));
+            let rough = [0.0, 1.0, 8.0][random.below(3)];
+            ball(rings, around, rough, random.below(2) == 0, random)
+        }
+    }
+}
+
+/// Where clusters of any size begin.
+fn any_starts(face_count: usize, random: &mut SplitMix64) -> Vec<u32> {
+    let largest = [1, 4, 30, 1000][random.below(4)];
+    let mut starts = vec![0];
+    while let left @ 1.. = face_count - *starts.last().unwrap() as usize {
+        starts.push(starts.last().unwrap() + index32(1 + random.below(largest.min(left))));
+    }
+    starts
+}
+
+#[test]
+fn clusters_leave_out_no_front_face() {
+    let mut random = SplitMix64(3);
+    let mut culled = 0;
+    let mut all = 0;
+    for case in 0..120 {
+        let mesh = any_mesh(case, &mut random);
+        let starts = any_starts(mesh.face_count(), &mut random);
+        let table = CullingTable::new(&mesh, &starts);
+        let order: Vec<u32> = (0..index32(mesh.face_count())).collect();
+        let used = mesh.faces().as_flattened().iter();
+        let used = used.map(|&vertex| mesh.positions()[vertex as usize].map(f64::from));
+        let around = Ball::around(used).unwrap();
+        let mut ranges = Ranges::default();
+        for _ in 0..60 {
+            let eye = any_eye(&mesh, around, &mut random);
+            table.visible_ranges(eye, &mut ranges);
+            assert_all_front(&mesh, &order, eye, &ranges);
+            culled += mesh.face_count() - ranges.face_count();
+            all += mesh.face_count();
+        }
+    }
+    assert!(culled > all / 5, "{culled} of {all} faces were culled");
+}
+
+#[test]
+fn what_any_eye_of_a_box_sees_is_drawn() {
+    let mut random = SplitMix64(4);
+    let mut culled = [0, 0];
+    for case in 0..60 {
+        let mesh = any_mesh(case, &mut random);
+        let starts = any_starts(mesh.face_count(), &mut random);
+        let table = CullingTable::new(&mesh, &starts);
+        let striped = NormalStripes::default().order(&mesh);
+        let whole: Vec<u32> = (0..index32(mesh.face_count())).collect();
+        let around = striped.ball().unwrap();
+        let mut ranges = [Ranges::default(), Ranges::default()];
+        for _ in 0..20 {
+            let [x, y, z, w] = any_eye(&mesh, around, &mut random).point;
+            let size = [0.0, 0.01, 0.1, 1.0][random.below(4)];
+            let half = [(); 3]
+                .map(|()| on_lattice(size * around.radius * random.below(1000) as f64 / 1000.0));
+            let low = [x - half[0], y - half[1], z - half[2]];
+            let high = [x + half[0], y + half[1], z + half[2]];
+            let eyes = EyeBox { low, high, w };
+            table.ranges_visible_within(eyes, &mut ranges[0]);
+            striped.ranges_visible_within(eyes, &mut ranges[1]);
+            for _ in 0..10 {
+                let [x, y, z] =
+                    [0, 1, 2].map(|i| [low[i], high[i], low[i] + half[i]][random.below(3)]);
+                let eye = Eye {
+                    point: [x, y, z, w],
+                };
+                assert_all_front(&mesh, &whole, eye, &ranges[0]);
+                assert_all_front(&mesh, striped.order().new_to_old(), eye, &ranges[1]);
+            }
+            for (culled, ranges) in culled.iter_mut().zip(&ranges) {
+                *culled += mesh.face_count() - ranges.face_count();
+            }
+        }
+    }
+    assert!(
+        culled.iter().all(|&count| count > 10_000),
+        "{culled:?} faces were culled"
+    );
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod ball;
 mod deviation;
 pub(crate) mod double;
 mod lattice;
+pub(crate) mod linear_program;
 mod normals;
 mod samples;
 mod surface;
