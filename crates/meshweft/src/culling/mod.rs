@@ -17,6 +17,7 @@
 //! Left out are faces, not pixels: what is drawn looks the same. So do not cull what is seen from both sides, nor what is
 //! moved by joints or morph targets.
 
+mod clusters;
 mod eye;
 mod facing;
 mod planes;
@@ -26,6 +27,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub use clusters::{ClusteredFaces, SampledEyes, ViewClusters};
 pub use eye::{Eye, EyeBox};
 pub use ranges::Ranges;
 pub use stripes::{NormalStripes, StripedFaces};

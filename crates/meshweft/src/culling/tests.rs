@@ -1,6 +1,6 @@
 //! No front face is left out, by exact signs.
 
-use super::{CullingTable, Eye, EyeBox, NormalStripes, Ranges};
+use super::{CullingTable, Eye, EyeBox, NormalStripes, Ranges, ViewClusters};
 use crate::geometry::Ball;
 use crate::index::index32;
 use crate::mesh::Mesh;
@@ -216,6 +216,58 @@ fn clusters_leave_out_no_front_face() {
         }
     }
     assert!(culled > all / 5, "{culled} of {all} faces were culled");
+}
+
+#[test]
+fn clusters_by_view_leave_out_no_front_face() {
+    let mut random = SplitMix64(6);
+    let mut culled = 0;
+    let mut all = 0;
+    for case in 0..40 {
+        let mesh = any_mesh(case, &mut random);
+        let clustered = ViewClusters::default().order(&mesh);
+        let order = clustered.order().new_to_old();
+        let striped = NormalStripes::default().order(&mesh);
+        let mut ranges = Ranges::default();
+        for _ in 0..60 {
+            let eye = any_eye(&mesh, striped.ball().unwrap(), &mut random);
+            clustered.table().visible_ranges(eye, &mut ranges);
+            assert_all_front(&mesh, order, eye, &ranges);
+            culled += mesh.face_count() - ranges.face_count();
+            all += mesh.face_count();
+        }
+    }
+    assert!(culled > all / 6, "{culled} of {all} faces were culled");
+}
+
+/// Positions moved by less than an error: what was a table of the mesh before still leaves out nothing.
+#[test]
+fn positions_may_be_off_by_an_error_that_is_known() {
+    let mut random = SplitMix64(7);
+    let mut culled = 0;
+    for case in 0..60 {
+        let mesh = any_mesh(case, &mut random);
+        let steps = [1, 16, 256][random.below(3)];
+        let clusters = ViewClusters {
+            position_error: steps as f32 * UNIT * 1.75,
+            ..ViewClusters::default()
+        };
+        let clustered = clusters.order(&mesh);
+        let moved = mesh.positions().iter();
+        let moved = moved.map(|position| {
+            position.map(|x| x + (random.below(2 * steps + 1) as f32 - steps as f32) * UNIT)
+        });
+        let moved = Mesh::new(moved.collect::<Vec<_>>(), mesh.faces().to_vec()).unwrap();
+        let striped = NormalStripes::default().order(&moved);
+        let mut ranges = Ranges::default();
+        for _ in 0..60 {
+            let eye = any_eye(&moved, striped.ball().unwrap(), &mut random);
+            clustered.table().visible_ranges(eye, &mut ranges);
+            assert_all_front(&moved, clustered.order().new_to_old(), eye, &ranges);
+            culled += mesh.face_count() - ranges.face_count();
+        }
+    }
+    assert!(culled > 50_000, "{culled} faces were culled");
 }
 
 #[test]

@@ -1,0 +1,241 @@
+//! Clusters of faces that are seen from the same eyes.
+//!
+//! Normals alone put faces from all over the mesh side by side, and each of their vertices is transformed for each of them. So
+//! clusters are made of neighbours here, by what drawing them is expected to cost: the share of eyes that see something of a
+//! cluster, times the vertices that drawing it takes.
+//!
+//! 1. `eyes`: some hundred eyes are sampled. `masks`: a bit for each that is in front of a face.
+//! 2. `merge`: each face is a cluster; the two neighbours that save most become one, as long as that saves anything. A
+//!    cluster has the bits of all its faces. `parts` does that side by side.
+//! 3. `tour`: clusters that are seen from nearly the same eyes come after each other, so that draws are few.
+//! 4. The faces of each cluster are put in an order for the cache, and [`CullingTable`] bounds from where it is seen.
+
+mod eyes;
+mod face_cluster;
+mod masks;
+mod merge;
+mod parts;
+#[cfg(test)]
+mod tests;
+mod tour;
+
+use super::eye::Eye;
+use super::facing::Facing;
+use super::table::CullingTable;
+use crate::cache::CacheModel;
+use crate::first_use::FirstUse;
+use crate::geometry::Ball;
+use crate::geometry::double::{scaled, widened};
+use crate::index::index32;
+use crate::mesh::Mesh;
+use crate::order::Optimizer;
+use crate::parallel;
+use crate::permutation::{FaceOrder, Permutation};
+pub use eyes::SampledEyes;
+use face_cluster::{FaceCluster, joined};
+use merge::Price;
+
+/// Clusters of neighbouring faces that are seen from the same eyes, for few vertices and few draws.
+///
+/// The costs are in vertices: what an eye is expected to cost is the sum, over the clusters that it sees something of, of their
+/// vertices, plus [`face_cost`](Self::face_cost) for each face, plus [`draw_cost`](Self::draw_cost).
+///
+/// ```
+/// use meshweft::Mesh;
+/// use meshweft::culling::{Eye, Ranges, ViewClusters};
+/// // A box: two faces a side.
+/// let corner = |i: u32| [i & 1, i >> 1 & 1, i >> 2].map(|x| x as f32);
+/// let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+/// let faces: Vec<_> = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+/// let mesh = Mesh::new((0..8).map(corner).collect(), faces)?;
+///
+/// let clusters = ViewClusters { draw_cost: 0.0, ..ViewClusters::default() };
+/// let clustered = clusters.order(&mesh);
+/// let mut ranges = Ranges::default();
+/// clustered.table().visible_ranges(Eye::at([0.5, 0.5, 9.0]), &mut ranges);
+/// assert_eq!(ranges.face_count(), 2); // One side faces the eye.
+/// # Ok::<(), meshweft::MeshError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewClusters {
+    /// The eyes that drawing is expected from.
+    pub eyes: SampledEyes,
+    /// *α*: what a face costs that is drawn, in vertices. A cache that is too small for a cluster transforms some vertices
+    /// again.
+    pub face_cost: f32,
+    /// *λ*: what another cluster costs, in vertices. With more, clusters are larger and fewer.
+    pub draw_cost: f32,
+    /// What puts the faces of each cluster in order.
+    pub optimizer: Optimizer,
+    /// How far each position may be from where it is drawn, in the units of positions: half a step of the lattice where they
+    /// are rounded afterwards, times √3.
+    pub position_error: f32,
+}
+
+impl Default for ViewClusters {
+    fn default() -> Self {
+        Self {
+            eyes: SampledEyes::default(),
+            face_cost: 0.8,
+            draw_cost: 2.0,
+            optimizer: Optimizer::for_cache(CacheModel::fifo(16)),
+            position_error: 0.0,
+        }
+    }
+}
+
+/// Faces in clusters, and what finds those that may be seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClusteredFaces {
+    order: FaceOrder,
+    table: CullingTable,
+}
+
+impl ClusteredFaces {
+    /// The order of the faces.
+    #[must_use]
+    pub fn order(&self) -> &FaceOrder {
+        &self.order
+    }
+
+    /// Which of the faces, in their new order, an eye may see.
+    #[must_use]
+    pub fn table(&self) -> &CullingTable {
+        &self.table
+    }
+}
+
+/// More clusters than this are joined along a curve before they are put in order.
+const MOST_TO_ORDER: usize = 20_000;
+
+impl ViewClusters {
+    /// The faces of a mesh in clusters.
+    ///
+    /// Faces without an area are never drawn, faces of which rounding hides from where they are seen always: they come last,
+    /// in a cluster each of these kinds.
+    ///
+    /// # Panics
+    /// If the mesh has no positions, or more than [`SampledEyes::MOST`] eyes are asked for.
+    ///
+    /// # Complexity
+    /// Time about O(faces · (eyes + log faces)), and what the optimizer takes; space 300 bytes a face.
+    #[must_use]
+    pub fn order(&self, mesh: &Mesh) -> ClusteredFaces {
+        assert!(
+            mesh.faces().is_empty() || !mesh.positions().is_empty(),
+            "no positions"
+        );
+        let used = mesh.faces().as_flattened().iter();
+        let used = used.map(|&vertex| widened(mesh.positions()[vertex as usize]));
+        let ball = Ball::around(used).filter(|ball| ball.radius > 0.0 && ball.radius.is_finite());
+        let ball = ball.unwrap_or(Ball {
+            center: [0.0; 3],
+            radius: 1.0,
+        });
+        let eyes = self.eyes.eyes(ball);
+        match eyes.len() {
+            0..=64 => self.order_for::<1>(mesh, ball, &eyes),
+            65..=128 => self.order_for::<2>(mesh, ball, &eyes),
+            129..=256 => self.order_for::<4>(mesh, ball, &eyes),
+            _ => self.order_for::<8>(mesh, ball, &eyes),
+        }
+    }
+
+    fn order_for<const WORDS: usize>(
+        &self,
+        mesh: &Mesh,
+        ball: Ball,
+        eyes: &[Eye],
+    ) -> ClusteredFaces {
+        // Faces that are seen from one side, and the others.
+        let mut seen = Vec::with_capacity(mesh.face_count());
+        let mut others = [Vec::new(), Vec::new()];
+        for (number, face) in (0..).zip(mesh.faces()) {
+            let corners = face.map(|vertex| widened(mesh.positions()[vertex as usize]));
+            match Facing::of(corners) {
+                Facing::Plane(_) => seen.push(number),
+                Facing::Unknown => others[0].push(number),
+                Facing::Never => others[1].push(number),
+            }
+        }
+
+        // Clusters, in the order of a tour.
+        let masks = masks::of_faces::<WORDS>(mesh, &seen, ball.center, eyes);
+        let price = Price {
+            face: self.face_cost,
+            draw: self.draw_cost,
+        };
+        let mut clusters = parts::clusters(mesh, &seen, &masks, price);
+        let direction = |eye: &Eye| {
+            let [x, y, z, _] = eye.around(ball.center).unwrap_or([0.0; 4]);
+            let length = (x * x + y * y + z * z).sqrt();
+            scaled([x, y, z], if length > 0.0 { 1.0 / length } else { 0.0 })
+        };
+        let directions: Vec<[f64; 3]> = eyes.iter().map(direction).collect();
+        let masks_of = |clusters: &[FaceCluster<WORDS>]| {
+            clusters
+                .iter()
+                .map(|cluster| cluster.mask)
+                .collect::<Vec<_>>()
+        };
+        if clusters.len() > MOST_TO_ORDER {
+            let along = tour::along_a_curve(&masks_of(&clusters), &directions);
+            clusters = joined(clusters, &along, price);
+        }
+        let tour = tour::order(&masks_of(&clusters), &directions);
+        clusters = joined(clusters, &tour, price);
+
+        // The faces of each in order.
+        let members = clusters.into_iter().map(|cluster| cluster.faces);
+        let members: Vec<Vec<u32>> = members
+            .chain(others)
+            .filter(|faces| !faces.is_empty())
+            .collect();
+        let inside = self.inside(mesh, members);
+        let mut starts = vec![0];
+        let mut new_to_old = Vec::with_capacity(mesh.face_count());
+        let mut rotations = Vec::with_capacity(mesh.face_count());
+        for (members, order) in inside {
+            new_to_old.extend(
+                order
+                    .new_to_old()
+                    .iter()
+                    .map(|&place| members[place as usize]),
+            );
+            rotations.extend_from_slice(order.rotations());
+            starts.push(index32(new_to_old.len()));
+        }
+        let order = FaceOrder::new(Permutation::from_algorithm(new_to_old), rotations);
+        let order = order.expect("a rotation for each face");
+        let ordered = mesh.with_face_order(&order);
+        let error = f64::from(self.position_error.max(0.0));
+        let table = CullingTable::within(&ordered, &starts, error, eyes);
+        ClusteredFaces { order, table }
+    }
+
+    /// The order of the faces of each cluster.
+    fn inside(&self, mesh: &Mesh, clusters: Vec<Vec<u32>>) -> Vec<(Vec<u32>, FaceOrder)> {
+        // Some clusters are one piece of work, so that few tables of all vertices are made.
+        let share = (clusters.len() / 64).max(1);
+        let mut clusters = clusters.into_iter();
+        let mut pieces = Vec::new();
+        while clusters.len() > 0 {
+            pieces.push(clusters.by_ref().take(share).collect());
+        }
+        let ordered = parallel::map(pieces, |piece: Vec<Vec<u32>>| {
+            let corners = piece.iter().map(|members| 3 * members.len()).sum();
+            let mut numbers = FirstUse::new(mesh.vertex_count(), corners);
+            let order = |members: Vec<u32>| {
+                let faces = members.iter().map(|&face| mesh.faces()[face as usize]);
+                let faces: Vec<[u32; 3]> = faces
+                    .map(|face| face.map(|vertex| numbers.number(vertex)))
+                    .collect();
+                numbers.finish();
+                let order = self.optimizer.face_order(&faces);
+                (members, order)
+            };
+            piece.into_iter().map(order).collect::<Vec<_>>()
+        });
+        ordered.into_iter().flatten().collect()
+    }
+}

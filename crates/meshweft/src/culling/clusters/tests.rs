@@ -1,0 +1,179 @@
+//! Clusters against what they are said to be.
+
+use super::masks::{self, Mask};
+use super::merge::{Merging, Price};
+use super::{SampledEyes, ViewClusters};
+use crate::culling::{Eye, Ranges};
+use crate::faces::Faces;
+use crate::index::index32;
+use crate::mesh::Mesh;
+use crate::random::SplitMix64;
+
+/// A sheet of faces in rows, some of them left out, waved.
+fn sheet(side: u32, random: &mut SplitMix64) -> Mesh {
+    let at = |x: u32, y: u32| x + y * (side + 1);
+    let positions = (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y)));
+    let positions: Vec<[f32; 3]> = positions
+        .map(|(x, y)| [x as f32, y as f32, random.below(8) as f32 / 4.0])
+        .collect();
+    let mut faces = Vec::new();
+    for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+        faces.push([at(x, y), at(x + 1, y), at(x, y + 1)]);
+        if random.below(5) > 0 {
+            faces.push([at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)]);
+        }
+    }
+    Mesh::new(positions, faces).unwrap()
+}
+
+#[test]
+fn no_two_clusters_are_left_that_save_something_as_one() {
+    let mut random = SplitMix64(1);
+    let mut merged = 0;
+    for _ in 0..60 {
+        let mesh = sheet(index32(2 + random.below(12)), &mut random);
+        let face_count = mesh.face_count();
+        let masks: Vec<Mask<1>> = (0..face_count)
+            .map(|_| [random.next() | random.next() | 0xff << (8 * random.below(8))])
+            .collect();
+        let masks: Vec<Mask<1>> = masks
+            .iter()
+            .map(|[bits]| [bits & [u64::MAX, 0xffff, 0xff][random.below(3)]])
+            .collect();
+        let price = Price {
+            face: 0.5,
+            draw: [0.0, 2.0][random.below(2)],
+        };
+        let apart = (0..index32(face_count)).collect();
+        let first_of = Merging::new((&mesh).into(), &masks, apart, price, |_| false).run();
+
+        // The clusters again, by their members.
+        let members = |cluster: u32| {
+            (0..face_count)
+                .filter(|&face| first_of[face] == cluster)
+                .collect::<Vec<_>>()
+        };
+        let firsts: Vec<u32> = (0..index32(face_count))
+            .filter(|&face| first_of[face as usize] == face)
+            .collect();
+        let vertices = |members: &[usize]| {
+            let corners = members.iter().flat_map(|&face| mesh.faces()[face]);
+            corners.collect::<std::collections::BTreeSet<u32>>()
+        };
+        let cost = |members: &[usize]| {
+            let mask = members
+                .iter()
+                .fold([0], |mask, &face| masks::union(&mask, &masks[face]));
+            masks::count(&mask) as f32
+                * price.weight(index32(vertices(members).len()), index32(members.len()))
+        };
+        for (number, &a) in firsts.iter().enumerate() {
+            for &b in &firsts[..number] {
+                let (a, b) = (members(a), members(b));
+                let both: Vec<usize> = a.iter().chain(&b).copied().collect();
+                if vertices(&a).intersection(&vertices(&b)).count() > 1 {
+                    assert!(cost(&both) >= cost(&a) + cost(&b) - 1e-3);
+                }
+            }
+        }
+        merged += face_count - firsts.len();
+    }
+    assert!(merged > 500, "{merged} merges");
+}
+
+#[test]
+fn bits_are_counted() {
+    let mut random = SplitMix64(2);
+    for _ in 0..100 {
+        let mask: Mask<8> = std::array::from_fn(|_| random.next() | random.next());
+        assert_eq!(
+            masks::count(&mask),
+            mask.iter().map(|word| word.count_ones()).sum::<u32>()
+        );
+    }
+    assert_eq!(masks::count(&[u64::MAX; 8]), 512);
+}
+
+#[test]
+fn each_face_is_in_one_cluster_whatever_the_mesh() {
+    let far = [f32::MAX, 1.0, 2.0];
+    type Arrays<'a> = (&'a [[f32; 3]], &'a [[u32; 3]]);
+    let odd: [Arrays<'_>; 6] = [
+        (&[], &[]),
+        (&[[0.0; 3]], &[[0, 0, 0]]),
+        (
+            &[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
+            &[[0, 1, 2], [0, 0, 1]],
+        ),
+        (
+            &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, f32::NAN, 0.0]],
+            &[[0, 1, 2]],
+        ),
+        (&[[0.0; 3], far, [0.0, f32::MAX, -f32::MAX]], &[[0, 1, 2]]),
+        (
+            &[[0.0; 3], [1e-42, 0.0, 0.0], [0.0, 1e-42, 0.0]],
+            &[[0, 1, 2]],
+        ),
+    ];
+    for (positions, faces) in odd {
+        let mesh = Mesh::new(positions.to_vec(), faces.to_vec()).unwrap();
+        let clustered = ViewClusters::default().order(&mesh);
+        assert_eq!(clustered.order().len(), faces.len());
+        assert_eq!(
+            *clustered.table().starts().last().unwrap() as usize,
+            faces.len()
+        );
+        let mut ranges = Ranges::default();
+        clustered
+            .table()
+            .visible_ranges(Eye::at([3.0, 2.0, 5.0]), &mut ranges);
+        assert!(ranges.face_count() <= faces.len());
+    }
+}
+
+#[test]
+fn faces_that_share_nothing_are_in_few_clusters() {
+    let mut random = SplitMix64(3);
+    let mut positions = Vec::new();
+    for _ in 0..3000 {
+        let corner = [(); 3].map(|()| random.below(1000) as f32);
+        positions.push(corner);
+        positions.push([corner[0] + 1.0, corner[1], corner[2]]);
+        positions.push([
+            corner[0],
+            corner[1] + 1.0,
+            corner[2] + random.below(3) as f32,
+        ]);
+    }
+    let faces = Faces::from_indices(&(0..9000).collect::<Vec<u32>>(), 9000)
+        .unwrap()
+        .as_slice()
+        .to_vec();
+    let mesh = Mesh::new(positions, faces).unwrap();
+    let clustered = ViewClusters::default().order(&mesh);
+    assert!(
+        clustered.table().cluster_count() < 300,
+        "{}",
+        clustered.table().cluster_count()
+    );
+}
+
+#[test]
+fn cameras_of_ones_own_are_what_is_made_for() {
+    // Seen from above alone, all that faces up is one cluster.
+    let mut random = SplitMix64(4);
+    let mesh = sheet(40, &mut random);
+    let above = (0..448)
+        .map(|i| Eye::at([i as f32 / 64.0, 4.0, 1000.0]))
+        .collect();
+    let ours = ViewClusters {
+        eyes: SampledEyes::These(above),
+        ..ViewClusters::default()
+    };
+    let [ours, all_around] = [ours, ViewClusters::default()]
+        .map(|clusters| clusters.order(&mesh).table().cluster_count());
+    assert!(
+        ours < all_around,
+        "{ours} clusters, {all_around} for all around"
+    );
+}
