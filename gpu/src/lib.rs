@@ -2,15 +2,17 @@
 //! how long it takes with what the models of meshweft say.
 //!
 //! [`vulkan`] is all that talks to the card, and all that is unsafe. [`renderer`] counts, logs and times
-//! one draw. [`predict`], [`mod@bench`], [`probe`] and [`paper`] are the jobs of the program `meshweft-gpu`.
+//! one draw, [`frames`] whole pictures. [`predict`], [`mod@bench`], [`cull`], [`probe`] and [`paper`] are the jobs of the program `meshweft-gpu`.
 
 #![deny(unsafe_code)]
 
 pub mod batch_rule;
 pub mod bench;
 mod clock;
+pub mod cull;
 pub mod draw;
 pub mod error;
+pub mod frames;
 pub mod lavapipe;
 pub mod meshes;
 pub mod model;

@@ -12,7 +12,7 @@ use gpu::model::Model;
 use gpu::orders::Order;
 use gpu::renderer::Renderer;
 use gpu::vulkan::{Gpu, Instance};
-use gpu::{bench, meshes, paper, predict, probe};
+use gpu::{bench, cull, meshes, paper, predict, probe};
 use serde_json::{Value, json};
 
 /// Draws meshes on a graphics card, through Vulkan and without a window, and compares what it counts
@@ -38,6 +38,8 @@ enum Verb {
     Bench(Drawn),
     /// Print the frame rates of Bogomjakov and Gotsman's Table 2 beside this card's
     Paper(Files),
+    /// Draw what cullers leave of meshes: whether it looks the same, and what it costs
+    Cull(Culled),
     /// Find out how the card collects vertices, and where that differs from the model
     Probe,
 }
@@ -78,6 +80,21 @@ impl Files {
         );
         Ok(read)
     }
+}
+
+#[derive(Debug, Args)]
+struct Culled {
+    #[command(flatten)]
+    files: Files,
+    /// Views of each mesh that are drawn whole and culled
+    #[arg(long, value_name = "N", default_value_t = 48)]
+    views: u32,
+    /// Width and height of pictures in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    side: u32,
+    /// Compare pictures and counts only
+    #[arg(long)]
+    no_times: bool,
 }
 
 #[derive(Debug, Args)]
@@ -150,7 +167,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, GpuError> {
     };
     let Some(verb) = &arguments.verb else {
         return Err(GpuError::Input(
-            "nothing to do: predict, bench, probe, paper; --help explains".to_owned(),
+            "nothing to do: predict, bench, cull, probe, paper; --help explains".to_owned(),
         ));
     };
 
@@ -184,6 +201,15 @@ fn act(renderer: &Renderer<'_>, verb: &Verb) -> Result<(ExitCode, Value), GpuErr
             bench::run(renderer, &drawn.files.meshes()?, &orders)?
         }
         Verb::Paper(files) => paper::run(renderer, &files.meshes()?)?,
+        Verb::Cull(culled) => {
+            let options = cull::CullOptions {
+                views: culled.views,
+                side: culled.side,
+                times: !culled.no_times,
+            };
+            let (is_right, figures) = cull::run(renderer, &culled.files.meshes()?, options)?;
+            return Ok((ExitCode::from(u8::from(!is_right)), figures));
+        }
         Verb::Probe => probe::run(renderer)?,
     };
     Ok((ExitCode::SUCCESS, figures))

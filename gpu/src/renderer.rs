@@ -90,6 +90,29 @@ impl<'g> Renderer<'g> {
         self.gpu
     }
 
+    /// Where shaders find what they are given.
+    pub(crate) fn layout(&self) -> &Rc<Layout<'g>> {
+        &self.layout
+    }
+
+    /// Counts what the card does while commands run.
+    pub(crate) fn counted_run<'c>(
+        &'c self,
+        record: impl FnOnce(&mut Commands<'c>),
+    ) -> Result<Counts, GpuError> {
+        self.gpu.run(|commands| {
+            commands.fill_with_zeros(self.layout.counters());
+            commands.counted(self.statistics.as_ref(), record);
+        })?;
+        let counters = self.layout.counters().read(2)?;
+        let statistics = self.statistics.as_ref().map(Statistics::invocations);
+        Ok(Counts {
+            statistics: statistics.transpose()?,
+            invocations: counters[0].into(),
+            warps: self.gpu.has_warps().then(|| counters[1].into()),
+        })
+    }
+
     /// A draw in the card's memory.
     ///
     /// # Errors
@@ -139,22 +162,13 @@ impl<'g> Renderer<'g> {
             positions: false,
             topology: geometry.topology(),
             restart: geometry.restart(),
+            solid: false,
         };
         let pipeline = self.pipeline(&settings)?;
-        self.gpu.run(|commands| {
-            commands.fill_with_zeros(self.layout.counters());
-            commands.counted(self.statistics.as_ref(), |commands| {
-                commands.pass(&self.target, &pipeline, geometry, |pass| {
-                    pass.draw([0.0; 4])
-                });
+        self.counted_run(|commands| {
+            commands.pass(&self.target, &pipeline, geometry, |pass| {
+                pass.draw([0.0; 4])
             });
-        })?;
-        let counters = self.layout.counters().read(2)?;
-        let statistics = self.statistics.as_ref().map(Statistics::invocations);
-        Ok(Counts {
-            statistics: statistics.transpose()?,
-            invocations: counters[0].into(),
-            warps: self.gpu.has_warps().then(|| counters[1].into()),
         })
     }
 
@@ -238,7 +252,7 @@ impl<'g> Renderer<'g> {
 }
 
 /// The middle value, the upper of two; 0 of none.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

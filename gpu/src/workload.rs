@@ -14,6 +14,19 @@ pub(crate) mod shader {
     pub(super) const COMPUTE: &[u8] = include_bytes!("shaders/compute.vert.spv");
     pub(super) const MEMORY: &[u8] = include_bytes!("shaders/memory.vert.spv");
 
+    pub(crate) const FRAME_FRAGMENT: &[u8] = include_bytes!("shaders/frame.frag.spv");
+    pub(crate) const RANGE_FRAGMENT: &[u8] = include_bytes!("shaders/range.frag.spv");
+    pub(crate) const FRAME: &[u8] = include_bytes!("shaders/frame.vert.spv");
+    pub(crate) const FRAME_COMPUTE: &[u8] = include_bytes!("shaders/frame_compute.vert.spv");
+
+    /// The shader of frames that counts.
+    pub(crate) fn frame_count(warps: bool) -> &'static [u8] {
+        match warps {
+            true => include_bytes!("shaders/frame_count_warps.vert.spv"),
+            false => include_bytes!("shaders/frame_count.vert.spv"),
+        }
+    }
+
     /// The shader that counts.
     pub(crate) fn count(warps: bool) -> &'static [u8] {
         match warps {
@@ -75,6 +88,7 @@ impl Workload {
             positions: true,
             topology,
             restart,
+            solid: false,
         }
     }
 }

@@ -1,36 +1,15 @@
 //! What the card of this machine counts, beside its model.
-//!
-//! Where there is no Vulkan driver these tests say so and do nothing; with `MESHWEFT_REQUIRE_VULKAN` set
-//! that is a failure.
 
-use std::io::Write;
+#[path = "on_a_card/mod.rs"]
+mod on_a_card;
 
 use gpu::draw::{Draw, RESTART, Topology};
-use gpu::error::GpuError;
 use gpu::model::Model;
 use gpu::orders::Order;
 use gpu::renderer::Renderer;
-use gpu::vulkan::Gpu;
 use meshweft::Mesh;
 use meshweft::operations::grid_orders;
-
-/// Runs `test` on the first card.
-fn on_a_card(name: &str, test: impl FnOnce(&Renderer<'_>)) {
-    let gpu = match Gpu::open(None) {
-        Ok(gpu) => gpu,
-        Err(GpuError::NoDriver(why)) => {
-            assert!(
-                std::env::var_os("MESHWEFT_REQUIRE_VULKAN").is_none(),
-                "no Vulkan: {why}"
-            );
-            // Past the test harness, which would capture it. If stderr is closed nobody reads it.
-            let _ = writeln!(std::io::stderr(), "{name}: SKIPPED, no Vulkan: {why}");
-            return;
-        }
-        Err(error) => panic!("{error}"),
-    };
-    test(&Renderer::new(&gpu).expect("a card that can draw"));
-}
+use on_a_card::on_a_card;
 
 /// Whether the counts are those of the model, and agree with each other.
 fn check(renderer: &Renderer<'_>, name: &str, draw: &Draw<'_>) {

@@ -89,6 +89,7 @@ impl<'g> Buffer<'g> {
                     | vk::BufferUsageFlags::TRANSFER_DST
                     | vk::BufferUsageFlags::INDEX_BUFFER
                     | vk::BufferUsageFlags::VERTEX_BUFFER
+                    | vk::BufferUsageFlags::INDIRECT_BUFFER
                     | vk::BufferUsageFlags::STORAGE_BUFFER,
             )
             .sharing_mode(vk::SharingMode::EXCLUSIVE);

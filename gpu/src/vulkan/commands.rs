@@ -1,15 +1,18 @@
 //! What a submission does.
 
 use std::fmt;
+use std::ops::Range;
 
 use ash::vk;
 
 use super::buffer::Buffer;
+use super::draws::Draws;
 use super::geometry::Geometry;
 use super::gpu::Gpu;
 use super::pipeline::Pipeline;
 use super::queries::{Statistics, Timestamps};
 use super::target::Target;
+use crate::draw::Topology;
 
 /// Commands that are being recorded. What they name is borrowed for `'c`, until they have run.
 pub struct Commands<'c> {
@@ -22,6 +25,7 @@ pub struct Pass<'p> {
     device: &'p ash::Device,
     raw: vk::CommandBuffer,
     layout: vk::PipelineLayout,
+    gpu: &'p Gpu,
     geometry: &'p Geometry<'p>,
 }
 
@@ -69,6 +73,49 @@ impl<'c> Commands<'c> {
         self.wait();
     }
 
+    /// Copies the words of a frame to a buffer, and how deep each pixel is to another.
+    ///
+    /// # Panics
+    /// If the target is not a frame, or a buffer has too few words.
+    pub(crate) fn copy_frame(
+        &mut self,
+        target: &'c Target<'c>,
+        words: &'c Buffer<'c>,
+        depths: &'c Buffer<'c>,
+    ) {
+        self.check(target.gpu);
+        let depth = target.depth.as_ref().expect("a frame");
+        let pixels = target.side() as usize * target.side() as usize;
+        assert!(2 * pixels <= words.words() && pixels <= depths.words());
+        let copies = [
+            (&target.colour, words, vk::ImageAspectFlags::COLOR),
+            (depth, depths, vk::ImageAspectFlags::DEPTH),
+        ];
+        for (image, buffer, aspect) in copies {
+            self.check(buffer.gpu);
+            let layers = vk::ImageSubresourceLayers::default()
+                .aspect_mask(aspect)
+                .layer_count(1);
+            let extent = vk::Extent3D {
+                width: target.side(),
+                height: target.side(),
+                depth: 1,
+            };
+            let regions = [vk::BufferImageCopy::default()
+                .image_subresource(layers)
+                .image_extent(extent)];
+            let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+            // SAFETY: as above; a pass has left the image in this layout, as `Frames` only reads what it has
+            // drawn, and the buffer has room for all pixels.
+            unsafe {
+                self.gpu
+                    .device
+                    .cmd_copy_image_to_buffer(self.raw, image.raw, layout, buffer.raw, &regions);
+            }
+        }
+        self.wait();
+    }
+
     /// Makes all that follows wait for all that came before.
     fn wait(&mut self) {
         let memory = [vk::MemoryBarrier::default()
@@ -102,25 +149,41 @@ impl<'c> Commands<'c> {
         target: &'c Target<'c>,
         pipeline: &'c Pipeline<'c>,
         geometry: &'c Geometry<'c>,
-        draw: impl FnOnce(&mut Pass<'_>),
+        draw: impl FnOnce(&mut Pass<'c>),
     ) {
         // Whether they fit each other.
         self.check(target.gpu);
         self.check(pipeline.gpu);
         self.check(geometry.indices.gpu);
         let settings = &pipeline.settings;
+        assert_eq!(settings.solid, target.depth.is_some());
+        assert_eq!(pipeline.side, target.side());
         assert_eq!(settings.topology, geometry.topology);
         assert_eq!(settings.restart, geometry.restart);
         assert!(!settings.positions || geometry.positions.is_some());
 
         // All that a draw needs.
         let device = &self.gpu.device;
-        let side = Target::SIDE;
+        let side = target.side();
         let area = vk::Rect2D::default().extent(vk::Extent2D {
             width: side,
             height: side,
         });
+        let nothing = vk::ClearColorValue {
+            uint32: [Target::NOTHING; 4],
+        };
+        let farthest = vk::ClearDepthStencilValue {
+            depth: 1.0,
+            stencil: 0,
+        };
+        let clear = [
+            vk::ClearValue { color: nothing },
+            vk::ClearValue {
+                depth_stencil: farthest,
+            },
+        ];
         let begin = vk::RenderPassBeginInfo::default()
+            .clear_values(&clear)
             .render_pass(target.pass)
             .framebuffer(target.framebuffer)
             .render_area(area);
@@ -146,6 +209,7 @@ impl<'c> Commands<'c> {
             device,
             raw: self.raw,
             layout,
+            gpu: self.gpu,
             geometry,
         });
         // SAFETY: the pass was begun above.
@@ -228,6 +292,44 @@ impl Pass<'_> {
             device.cmd_push_constants(raw, self.layout, stage, 0, &bytes);
             let (count, instances) = (geometry.count, geometry.instances);
             device.cmd_draw_indexed(raw, count, instances, 0, geometry.vertex_offset, 0);
+        }
+    }
+}
+
+impl<'p> Pass<'p> {
+    /// Draws some of the draws whose arguments are on the card, by one call, with a matrix for the shader, its
+    /// columns one after the other.
+    ///
+    /// # Panics
+    /// If there are fewer draws, the geometry has fewer indices than they need or is not a plain list, or the card does
+    /// not take as many at once.
+    pub fn draw_ranges(&mut self, view: &[f32; 16], draws: &'p Draws<'p>, which: Range<u32>) {
+        // Whether they fit.
+        let geometry = self.geometry;
+        assert!(std::ptr::eq(self.gpu, draws.buffer.gpu));
+        assert!(which.start <= which.end && which.end <= draws.count);
+        assert!(draws.needs <= geometry.count);
+        assert_eq!(geometry.topology, Topology::TriangleList);
+        assert!(geometry.vertex_offset == 0 && geometry.instances == 1);
+        let count = which.end - which.start;
+        assert!(count <= self.gpu.most_draws());
+        if count == 0 {
+            return;
+        }
+
+        let mut bytes = [0; 64];
+        for (to, from) in bytes.chunks_exact_mut(4).zip(view) {
+            to.copy_from_slice(&from.to_ne_bytes());
+        }
+        let stage = vk::ShaderStageFlags::VERTEX;
+        let stride = 4 * Draws::WORDS;
+        let offset = u64::from(which.start) * u64::from(stride);
+        // SAFETY: as in `draw`; the arguments are those that were checked, and lie inside the buffer, which lives
+        // until the commands have run.
+        unsafe {
+            let (device, raw) = (self.device, self.raw);
+            device.cmd_push_constants(raw, self.layout, stage, 0, &bytes);
+            device.cmd_draw_indexed_indirect(raw, draws.buffer.raw, offset, count, stride);
         }
     }
 }

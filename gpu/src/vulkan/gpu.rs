@@ -19,6 +19,7 @@ pub struct Gpu {
     pub(super) pool: vk::CommandPool,
     pub(super) memory: vk::PhysicalDeviceMemoryProperties,
     has_statistics: bool,
+    draws_frames: bool,
     /// The bits of a timestamp that count; 0 if there are none.
     timestamp_bits: u32,
     /// One thread at a time: the pool and the queue have no lock.
@@ -71,7 +72,12 @@ impl Gpu {
                 "stores from vertex shaders (vertexPipelineStoresAndAtomics)",
             ));
         }
+        let draws_frames =
+            card.draw_parameters && [has.multi_draw_indirect, has.geometry_shader] == [vk::TRUE; 2];
+        let if_frames = vk::Bool32::from(draws_frames);
         let used = vk::PhysicalDeviceFeatures {
+            multi_draw_indirect: if_frames,
+            geometry_shader: if_frames,
             vertex_pipeline_stores_and_atomics: vk::TRUE,
             pipeline_statistics_query: has.pipeline_statistics_query,
             full_draw_index_uint32: has.full_draw_index_uint32,
@@ -82,9 +88,14 @@ impl Gpu {
         let queues = [vk::DeviceQueueCreateInfo::default()
             .queue_family_index(family)
             .queue_priorities(&[1.0])];
-        let info = vk::DeviceCreateInfo::default()
+        let mut parameters =
+            vk::PhysicalDeviceShaderDrawParametersFeatures::default().shader_draw_parameters(true);
+        let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_features(&used);
+        if draws_frames {
+            info = info.push_next(&mut parameters);
+        }
         // SAFETY: `info` and what it points to live until the call returns; the queue family exists
         // and the features are among the card's.
         let device = unsafe { raw.create_device(card.physical, &info, None) }
@@ -101,6 +112,7 @@ impl Gpu {
             pool: vk::CommandPool::null(),
             memory,
             has_statistics: has.pipeline_statistics_query == vk::TRUE,
+            draws_frames,
             timestamp_bits: families[at].timestamp_valid_bits,
             _not_sync: PhantomData,
             _instance: instance,
@@ -124,6 +136,19 @@ impl Gpu {
     #[must_use]
     pub fn has_statistics(&self) -> bool {
         self.has_statistics
+    }
+
+    /// Whether it draws several ranges of faces by one call, and shaders can tell which range and which face is
+    /// seen.
+    #[must_use]
+    pub fn draws_frames(&self) -> bool {
+        self.draws_frames
+    }
+
+    /// The most draws of one call whose arguments are on the card.
+    #[must_use]
+    pub fn most_draws(&self) -> u32 {
+        self.card.limits.indirect_draws
     }
 
     /// Whether a vertex shader can tell which invocations run in one group.

@@ -28,6 +28,8 @@ pub struct Card {
     pub(super) physical: vk::PhysicalDevice,
     pub(super) limits: Limits,
     pub(super) subgroups_in_vertex_shaders: bool,
+    /// Whether shaders can tell which draw of a call they are in.
+    pub(super) draw_parameters: bool,
 }
 
 /// How a card stands to the processor.
@@ -49,6 +51,7 @@ pub enum Kind {
 pub(super) struct Limits {
     pub(super) index: u32,
     pub(super) storage_bytes: u32,
+    pub(super) indirect_draws: u32,
     pub(super) nanoseconds_per_tick: f32,
 }
 
@@ -110,6 +113,15 @@ impl Instance {
         // SAFETY: as above; the card's version knows each structure of the chain.
         unsafe { self.raw.get_physical_device_properties2(physical, &mut all) };
 
+        let mut parameters = vk::PhysicalDeviceShaderDrawParametersFeatures::default();
+        let mut features = vk::PhysicalDeviceFeatures2::default().push_next(&mut parameters);
+        // SAFETY: as above.
+        unsafe {
+            self.raw
+                .get_physical_device_features2(physical, &mut features)
+        };
+        let draw_parameters = parameters.shader_draw_parameters == vk::TRUE;
+
         // As much of that as counts.
         let base = all.properties;
         let kind = match base.device_type {
@@ -131,12 +143,14 @@ impl Instance {
             limits: Limits {
                 index: base.limits.max_draw_indexed_index_value,
                 storage_bytes: base.limits.max_storage_buffer_range,
+                indirect_draws: base.limits.max_draw_indirect_count,
                 nanoseconds_per_tick: base.limits.timestamp_period,
             },
             subgroups_in_vertex_shaders: subgroups
                 .supported_stages
                 .contains(vk::ShaderStageFlags::VERTEX)
                 && subgroups.supported_operations.contains(needed),
+            draw_parameters,
         })
     }
 }

@@ -8,7 +8,7 @@ use super::buffer::Buffer;
 use super::gpu::Gpu;
 use crate::error::GpuError;
 
-/// Three buffers in set 0 (counters, log, table) and four floats that change between draws.
+/// Three buffers in set 0 (counters, log, table) and sixteen floats that change between draws.
 pub struct Layout<'g> {
     gpu: &'g Gpu,
     descriptors: vk::DescriptorSetLayout,
@@ -75,7 +75,7 @@ impl<'g> Layout<'g> {
         self.descriptors = unsafe { device.create_descriptor_set_layout(&info, None) }?;
 
         let sets = [self.descriptors];
-        let constants = [vk::PushConstantRange::default().stage_flags(stage).size(16)];
+        let constants = [vk::PushConstantRange::default().stage_flags(stage).size(64)];
         let info = vk::PipelineLayoutCreateInfo::default()
             .set_layouts(&sets)
             .push_constant_ranges(&constants);

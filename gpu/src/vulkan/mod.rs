@@ -5,8 +5,10 @@
 
 mod buffer;
 mod commands;
+mod draws;
 mod geometry;
 mod gpu;
+mod image;
 mod instance;
 mod layout;
 mod pipeline;
@@ -16,6 +18,7 @@ mod target;
 
 pub use buffer::Buffer;
 pub use commands::{Commands, Pass, Stamps};
+pub use draws::Draws;
 pub use geometry::Geometry;
 pub use gpu::Gpu;
 pub use instance::{Card, Instance, Kind};

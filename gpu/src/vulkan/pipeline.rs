@@ -25,6 +25,9 @@ pub struct Settings {
     pub topology: Topology,
     /// Whether the largest index starts a new strip or fan.
     pub restart: bool,
+    /// Whether only front faces are drawn, corners turning left, and of them what is nearest: into a
+    /// [`Target::frame`].
+    pub solid: bool,
 }
 
 /// A pipeline that draws into a [`Target`].
@@ -33,6 +36,8 @@ pub struct Pipeline<'g> {
     pub(super) layout: Rc<Layout<'g>>,
     pub(super) raw: vk::Pipeline,
     pub(super) settings: Settings,
+    /// Of the target.
+    pub(super) side: u32,
 }
 
 impl<'g> Pipeline<'g> {
@@ -40,12 +45,17 @@ impl<'g> Pipeline<'g> {
     ///
     /// # Errors
     /// If the driver cannot compile a shader.
+    ///
+    /// # Panics
+    /// If the target is a frame and the settings are not for one, or the other way round.
     pub fn new(
         gpu: &'g Gpu,
         layout: &Rc<Layout<'g>>,
         target: &Target<'g>,
         settings: &Settings,
     ) -> Result<Self, GpuError> {
+        assert_eq!(settings.solid, target.depth.is_some());
+
         // Shaders.
         let vertex = Shader::new(gpu, settings.vertex)?;
         let fragment = settings
@@ -74,7 +84,7 @@ impl<'g> Pipeline<'g> {
             .primitive_restart_enable(settings.restart);
 
         // Pixels.
-        let side = Target::SIDE;
+        let side = target.side();
         let viewports = [vk::Viewport::default()
             .width(side as f32)
             .height(side as f32)
@@ -89,10 +99,18 @@ impl<'g> Pipeline<'g> {
         let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
             .rasterizer_discard_enable(settings.fragment.is_none())
             .polygon_mode(vk::PolygonMode::FILL)
-            .cull_mode(vk::CullModeFlags::NONE)
+            .cull_mode(match settings.solid {
+                true => vk::CullModeFlags::BACK,
+                false => vk::CullModeFlags::NONE,
+            })
+            .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
             .line_width(1.0);
         let samples = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+        let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+            .depth_test_enable(settings.solid)
+            .depth_write_enable(settings.solid)
+            .depth_compare_op(vk::CompareOp::LESS);
         let colours = [vk::PipelineColorBlendAttachmentState::default()
             .color_write_mask(vk::ColorComponentFlags::RGBA)];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&colours);
@@ -105,6 +123,7 @@ impl<'g> Pipeline<'g> {
             .viewport_state(&viewport)
             .rasterization_state(&rasterization)
             .multisample_state(&samples)
+            .depth_stencil_state(&depth)
             .color_blend_state(&blend)
             .layout(layout.raw)
             .render_pass(target.pass)];
@@ -120,6 +139,7 @@ impl<'g> Pipeline<'g> {
             layout: Rc::clone(layout),
             raw,
             settings: *settings,
+            side,
         })
     }
 }

@@ -1,0 +1,7 @@
+// Which range is seen.
+#version 450
+
+layout(location = 0) flat in uint range;
+layout(location = 0) out uvec2 seen;
+
+void main() { seen = uvec2(range, 0); }
