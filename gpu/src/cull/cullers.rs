@@ -3,7 +3,7 @@
 use std::fmt;
 
 use meshweft::culling::{Eye, NormalStripes, Ranges};
-use meshweft::order::{Optimizer, Target, vertex_fetch};
+use meshweft::order::{Optimizer, Target, vertex_blocks, vertex_fetch};
 use meshweft::{CacheModel, FaceOrder, Mesh};
 
 use crate::draw::Draw;
@@ -25,14 +25,17 @@ pub struct Culler {
     pub visible: Option<Box<Visible>>,
 }
 
-/// All that is compared on a mesh; the second is what times are relative to.
+/// What the paper's number of stripes is printed as.
+pub(super) const STRIPES: &str = "stripes";
+
+/// All that is compared on a mesh: first the mesh as its file has it; the second is what times are relative to.
 #[must_use]
 pub fn cullers(mesh: &Mesh, card: &Card) -> Vec<Culler> {
     vec![file(mesh), whole(mesh, card), stripes(mesh, None)]
 }
 
 /// The mesh as its file has it.
-pub(super) fn file(mesh: &Mesh) -> Culler {
+fn file(mesh: &Mesh) -> Culler {
     Culler {
         name: "file".to_owned(),
         order: FaceOrder::identity(mesh.face_count()),
@@ -41,7 +44,7 @@ pub(super) fn file(mesh: &Mesh) -> Culler {
 }
 
 /// The whole mesh in an order for the card's cache.
-pub(super) fn whole(mesh: &Mesh, card: &Card) -> Culler {
+fn whole(mesh: &Mesh, card: &Card) -> Culler {
     let optimizer = Optimizer {
         target: match Model::of(card) {
             (Model::Nvidia, true) => Target::Cache(CacheModel::Nvidia),
@@ -51,9 +54,14 @@ pub(super) fn whole(mesh: &Mesh, card: &Card) -> Culler {
     };
     Culler {
         name: "whole".to_owned(),
-        order: optimizer.face_order(mesh),
+        order: optimizer.face_order(&in_blocks(mesh)),
         visible: None,
     }
+}
+
+/// The mesh with its vertices in blocks of 65,536, as cards forget vertices between them.
+fn in_blocks(mesh: &Mesh) -> Mesh {
+    mesh.with_vertex_order(&vertex_blocks(mesh))
 }
 
 /// Kim and Lee's stripes: so many, or as many as the paper takes.
@@ -65,7 +73,7 @@ pub(super) fn stripes(mesh: &Mesh, stripe_count: Option<u32>) -> Culler {
     let striped = stripes.order(mesh);
     Culler {
         name: match stripe_count {
-            None => "stripes".to_owned(),
+            None => STRIPES.to_owned(),
             Some(count) => format!("V = {count}"),
         },
         order: striped.order().clone(),
@@ -83,16 +91,19 @@ pub(super) struct Prepared<'g> {
 }
 
 impl<'g> Prepared<'g> {
-    /// Vertices are numbered by their first use, unless faces are as in the file.
+    /// Vertices are numbered by their first use, in blocks where they are many, unless faces are as in the file.
     pub(super) fn new(
         renderer: &Renderer<'g>,
         mesh: &Mesh,
         culler: Culler,
     ) -> Result<Self, GpuError> {
-        let mut ordered = mesh.with_face_order(&culler.order);
-        if !culler.order.is_identity() {
-            ordered = ordered.with_vertex_order(&vertex_fetch(&ordered));
-        }
+        let ordered = match culler.order.is_identity() {
+            true => mesh.clone(),
+            false => {
+                let ordered = in_blocks(mesh).with_face_order(&culler.order);
+                ordered.with_vertex_order(&vertex_fetch(&ordered))
+            }
+        };
         let geometry = renderer.upload(&Draw {
             positions: Some(ordered.positions()),
             ..Draw::list(ordered.faces().as_flattened())
