@@ -25,7 +25,7 @@ mod scene;
 use std::io::Write;
 
 use camera::{Camera, Placed, SIDE, STEPS};
-use meshweft::culling::{Eye, NormalStripes, Ranges};
+use meshweft::culling::{Eye, NormalStripes, Ranges, ViewClusters};
 use meshweft::{FaceOrder, Mesh};
 use raster::{Picture, area};
 use scene::{Random, ball, inside_out, is_front, needles, round, soup};
@@ -56,7 +56,15 @@ fn cullers(mesh: &Mesh) -> Vec<Culler> {
             }),
         }
     };
-    vec![stripes("4 stripes", 4), stripes("64 stripes", 64)]
+    let clustered = ViewClusters::default().order(mesh);
+    let clusters = Culler {
+        name: "clusters",
+        order: clustered.order().clone(),
+        visible: Box::new(move |eye, ranges| {
+            clustered.table().visible_ranges(eye, ranges);
+        }),
+    };
+    vec![stripes("4 stripes", 4), stripes("64 stripes", 64), clusters]
 }
 
 /// What was seen.

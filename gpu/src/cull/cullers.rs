@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use meshweft::culling::{Eye, NormalStripes, Ranges};
+use meshweft::culling::{Eye, NormalStripes, Ranges, ViewClusters};
 use meshweft::order::{Optimizer, Target, vertex_blocks, vertex_fetch};
 use meshweft::{CacheModel, FaceOrder, Mesh};
 
@@ -31,7 +31,12 @@ pub(super) const STRIPES: &str = "stripes";
 /// All that is compared on a mesh: first the mesh as its file has it; the second is what times are relative to.
 #[must_use]
 pub fn cullers(mesh: &Mesh, card: &Card) -> Vec<Culler> {
-    vec![file(mesh), whole(mesh, card), stripes(mesh, None)]
+    vec![
+        file(mesh),
+        whole(mesh, card),
+        stripes(mesh, None),
+        clusters(mesh, card),
+    ]
 }
 
 /// The mesh as its file has it.
@@ -46,16 +51,39 @@ fn file(mesh: &Mesh) -> Culler {
 /// The whole mesh in an order for the card's cache.
 fn whole(mesh: &Mesh, card: &Card) -> Culler {
     let optimizer = Optimizer {
-        target: match Model::of(card) {
-            (Model::Nvidia, true) => Target::Cache(CacheModel::Nvidia),
-            _ => Target::Universal,
-        },
+        target: target(card),
         ..Optimizer::default()
     };
     Culler {
         name: "whole".to_owned(),
         order: optimizer.face_order(&in_blocks(mesh)),
         visible: None,
+    }
+}
+
+fn target(card: &Card) -> Target {
+    match Model::of(card) {
+        (Model::Nvidia, true) => Target::Cache(CacheModel::Nvidia),
+        _ => Target::Universal,
+    }
+}
+
+/// View-mask clusters, their faces in an order for the card's cache.
+fn clusters(mesh: &Mesh, card: &Card) -> Culler {
+    let clusters = ViewClusters {
+        optimizer: Optimizer {
+            target: target(card),
+            ..Optimizer::default()
+        },
+        ..ViewClusters::default()
+    };
+    let clustered = clusters.order(mesh);
+    Culler {
+        name: "clusters".to_owned(),
+        order: clustered.order().clone(),
+        visible: Some(Box::new(move |eye, ranges| {
+            clustered.table().visible_ranges(eye, ranges);
+        })),
     }
 }
 

@@ -47,7 +47,7 @@ use merge::Price;
 /// let corner = |i: u32| [i & 1, i >> 1 & 1, i >> 2].map(|x| x as f32);
 /// let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 /// let faces: Vec<_> = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-/// let mesh = Mesh::new((0..8).map(corner).collect(), faces)?;
+/// let mesh = Mesh::new((0..8).map(corner).collect::<Vec<_>>(), faces)?;
 ///
 /// let clusters = ViewClusters { draw_cost: 0.0, ..ViewClusters::default() };
 /// let clustered = clusters.order(&mesh);
