@@ -33,3 +33,14 @@ pub(crate) fn shuffled(len: usize, seed: u64) -> Vec<u32> {
     }
     order
 }
+
+/// A number that a long run of a test by hand gives: `MESHWEFT_CASES` meshes from `MESHWEFT_SEED`.
+#[cfg(test)]
+pub(crate) fn from_environment(name: &str, usual: u64) -> u64 {
+    match std::env::var(name) {
+        Ok(text) => text
+            .parse()
+            .unwrap_or_else(|_| panic!("{name} is {text:?}: give a whole number")),
+        Err(_) => usual,
+    }
+}

@@ -1,10 +1,10 @@
 //! Streams that were damaged.
 
-use super::tests::{KEPT, any_mesh, from_environment, ways};
+use super::tests::{KEPT, any_mesh, ways};
 use super::{CodeOptions, MeshCode, Tier};
 use crate::index::index32;
 use crate::limits::Limits;
-use crate::random::SplitMix64;
+use crate::random::{SplitMix64, from_environment};
 
 #[test]
 fn damaged_bytes_give_an_error_or_a_mesh() {

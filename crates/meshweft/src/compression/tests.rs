@@ -8,7 +8,7 @@ use crate::geometry::Lattice;
 use crate::index::index32;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
-use crate::random::SplitMix64;
+use crate::random::{SplitMix64, from_environment};
 
 /// A mesh of any faces, with positions that any bits may be.
 pub(super) fn any_mesh(random: &mut SplitMix64) -> Mesh {
@@ -55,16 +55,6 @@ fn expected(mesh: &Mesh, code: &MeshCode, positions: PositionCoding) -> Mesh {
     let rounded = ordered.positions().iter();
     let rounded: Vec<_> = rounded.map(|position| position.map(on_lattice)).collect();
     Mesh::new(rounded, ordered.faces().to_vec()).unwrap()
-}
-
-/// A number that a long run by hand gives: `MESHWEFT_CASES` meshes from `MESHWEFT_SEED`.
-pub(super) fn from_environment(name: &str, usual: u64) -> u64 {
-    match std::env::var(name) {
-        Ok(text) => text
-            .parse()
-            .unwrap_or_else(|_| panic!("{name} is {text:?}: give a whole number")),
-        Err(_) => usual,
-    }
 }
 
 #[test]
