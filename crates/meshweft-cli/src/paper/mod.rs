@@ -4,6 +4,7 @@ mod arguments;
 mod bogomjakov_gotsman;
 mod figure;
 mod irregular;
+mod kim_lee;
 mod levels;
 mod lin_yu;
 mod lin_zhang;
@@ -50,6 +51,15 @@ enum WhichPaper {
     ///   meshweft paper lin-zhang --data folder-with-meshes --pictures folder
     #[command(verbatim_doc_comment)]
     LinZhang(LinZhang),
+    /// Kim, Lee: Mesh Clustering and Reordering Based on Normal Locality for Efficient Rendering (2022)
+    ///
+    /// Tables 1 to 4 and figures 9, 10 and 13, on the meshes that are found and on spheres made here: how long it
+    /// takes to put faces in stripes by their normals, how many of the back faces are then left out from where, by how
+    /// many calls the rest is drawn, and what vertices cost. Frame times are not measured here.
+    ///
+    ///   meshweft paper kim-lee --data folder-with-meshes
+    #[command(verbatim_doc_comment)]
+    KimLee(OfPaper),
 }
 
 /// Prints the figures of a paper for the meshes that are found.
@@ -58,5 +68,6 @@ pub(crate) fn run(arguments: &Paper) -> Result<()> {
         WhichPaper::LinYu(arguments) => lin_yu::run(arguments),
         WhichPaper::BogomjakovGotsman(arguments) => bogomjakov_gotsman::run(arguments),
         WhichPaper::LinZhang(arguments) => lin_zhang::run(arguments),
+        WhichPaper::KimLee(arguments) => kim_lee::run(arguments),
     }
 }

@@ -7,7 +7,7 @@ use crate::basics::grid_obj;
 fn papers_without_their_meshes_say_what_they_look_for() {
     let folder = Folder::new("papers");
     folder.write("other.obj", grid_obj());
-    for paper in ["lin-yu", "bogomjakov-gotsman", "lin-zhang"] {
+    for paper in ["lin-yu", "bogomjakov-gotsman", "lin-zhang", "kim-lee"] {
         let failed = folder.run(&["paper", paper, "--data", "."]);
         assert_eq!(failed.code(), 1);
         assert!(failed.err().contains("bunny.ply"), "{}", failed.err());
@@ -107,4 +107,66 @@ fn the_vertices_of_lin_and_zhang_are_drawn_over_the_mesh() {
     let forced = folder.run(&[&flags[..], &["--force"]].concat());
     assert_eq!(forced.code(), 0);
     assert!(folder.read(&name) == picture);
+}
+
+#[test]
+fn spheres_of_kim_and_lee_leave_out_what_the_closed_forms_say() {
+    let folder = Folder::new("kim-lee");
+    folder.write("spot.obj", grid_obj());
+    let flags = ["paper", "kim-lee", "--data", ".", "--skip-large"];
+    let run = folder.run(&[&flags[..], &["--json"]].concat());
+    let json = run.json();
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+
+    // Not the paper's spot, and the paper's sphere.
+    let rows = json["table_2"]["rows"].as_array().unwrap();
+    assert_eq!(rows[0]["mesh"], "Spot*");
+    assert_eq!(rows[1]["mesh"], "Sphere");
+    assert_eq!(rows[1]["faces"], 65024);
+    let exact = &rows[1]["exact"];
+    for (share, expected) in [(&exact["mean"][0], 0.625), (&exact["mean"][1], 0.375)] {
+        assert!((number(share) - expected).abs() < 1e-3, "{share}");
+    }
+    for axis in exact["axes"].as_array().unwrap() {
+        assert!(
+            (number(&axis[0]) + number(&axis[1]) - 1.0).abs() < 0.01,
+            "{axis}"
+        );
+    }
+    // The grid is flat: all of it is seen from one side, none of it from its plane, and from behind nothing is drawn.
+    let axes = rows[0]["axes"].as_array().unwrap();
+    let sum = |side: usize| axes.iter().map(|axis| number(&axis[side])).sum::<f64>();
+    assert_eq!([sum(0), sum(1)], [5.0, 1.0], "{axes:?}");
+
+    // Stripes leave out more the more there are, and 16 of them nearly all that can be.
+    let spheres = json["table_3"]["rows"].as_array().unwrap();
+    let of_65k = spheres.iter().filter(|row| row["sphere"] == "65K");
+    let drawn: Vec<f64> = of_65k.map(|row| number(&row["drawn"])).collect();
+    assert_eq!(drawn.len(), 7);
+    assert!(
+        drawn[1..].is_sorted_by(|more, less| more > less),
+        "{drawn:?}"
+    );
+    assert!((0.625..0.66).contains(&drawn[5]), "{drawn:?}");
+    assert!(spheres.iter().all(|row| row["sphere"] != "261K"));
+
+    // The paper's formula, less what ranges cost.
+    let by_distance = json["figure_10"]["rows"].as_array().unwrap();
+    assert_eq!(by_distance.len(), 7);
+    for row in by_distance {
+        let lost = number(&row["formula"]) - number(&row["culled_of_back"][1]);
+        assert!((0.0..0.03).contains(&lost), "{row}");
+    }
+    assert!(folder.run(&flags).out().contains("both shares make 100 %"));
+}
+
+#[test]
+fn meshes_of_kim_and_lee_need_positions_that_are_finite() {
+    let folder = Folder::new("kim-lee-no-positions");
+    folder.write("spot.obj", "v nan 0 0\nv nan 1 0\nv nan 1 1\nf 1 2 3\n");
+    let failed = folder.run(&["paper", "kim-lee", "--data", "."]);
+    assert_eq!(failed.code(), 1);
+    for part in ["spot.obj", "finite positions"] {
+        assert!(failed.err().contains(part), "{}", failed.err());
+    }
 }

@@ -20,6 +20,8 @@
 mod clusters;
 mod eye;
 mod facing;
+#[cfg(test)]
+mod paper_circle_tests;
 mod planes;
 mod ranges;
 mod stripes;

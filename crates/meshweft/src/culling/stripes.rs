@@ -1,6 +1,7 @@
 //! Faces in stripes by the latitude of their normals, in each by their longitude.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 use super::eye::{Eye, EyeBox};
 use super::facing::{MARGIN, normal};
@@ -175,6 +176,17 @@ impl StripedFaces {
     #[must_use]
     pub fn stripe_count(&self) -> usize {
         self.bands.len()
+    }
+
+    /// The faces of a stripe, as places of the new order.
+    ///
+    /// # Panics
+    /// If there is no such stripe.
+    #[must_use]
+    pub fn faces_of(&self, stripe: usize) -> Range<usize> {
+        assert!(stripe < self.stripe_count(), "stripe {stripe} of fewer");
+        let start = |stripe: usize| self.starts[stripe * self.range_count as usize] as usize;
+        start(stripe)..start(stripe + 1)
     }
 
     /// The smallest ball around all vertices of faces.

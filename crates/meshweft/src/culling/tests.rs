@@ -18,7 +18,7 @@ fn in_units(x: f32) -> i128 {
 }
 
 /// Whether a face is a front face, exactly.
-fn is_front(corners: [[f32; 3]; 3], eye: Eye) -> bool {
+pub(super) fn is_front(corners: [[f32; 3]; 3], eye: Eye) -> bool {
     let [a, b, c] = corners.map(|corner| corner.map(in_units));
     let minus = |p: [i128; 3], q: [i128; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let (u, v) = (minus(b, a), minus(c, a));
@@ -36,14 +36,20 @@ fn is_front(corners: [[f32; 3]; 3], eye: Eye) -> bool {
     n[0] * way[0] + n[1] * way[1] + n[2] * way[2] > 0
 }
 
-fn on_lattice(x: f64) -> f32 {
+pub(super) fn on_lattice(x: f64) -> f32 {
     #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
     let units = (x / f64::from(UNIT)).round() as f32;
     units * UNIT
 }
 
 /// A closed ball of faces with a rough surface, turned inside out or not.
-fn ball(rings: u32, around: u32, rough: f64, is_inside_out: bool, random: &mut SplitMix64) -> Mesh {
+pub(super) fn ball(
+    rings: u32,
+    around: u32,
+    rough: f64,
+    is_inside_out: bool,
+    random: &mut SplitMix64,
+) -> Mesh {
     let mut positions = Vec::new();
     for ring in 0..=rings {
         for step in 0..around {
@@ -138,7 +144,7 @@ fn any_eye(mesh: &Mesh, ball: Ball, random: &mut SplitMix64) -> Eye {
 }
 
 /// Asserts that all front faces are in the ranges.
-fn assert_all_front(mesh: &Mesh, order: &[u32], eye: Eye, ranges: &Ranges) {
+pub(super) fn assert_all_front(mesh: &Mesh, order: &[u32], eye: Eye, ranges: &Ranges) {
     let mut is_drawn = vec![false; mesh.face_count()];
     for range in ranges.as_slice() {
         for place in range.clone() {

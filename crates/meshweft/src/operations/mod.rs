@@ -5,7 +5,8 @@
 //! document and keeps every other byte, `simplify` takes faces away from it, `inspect` counts it as it is, and
 //! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads; their reports are values that know their JSON.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
-//! along a history such as [`collapse_history`] makes.
+//! along a history such as [`collapse_history`] makes. [`StripedMesh`] and [`FacePlanes`] count what of a mesh is drawn, and
+//! what could be left out, from where it is seen.
 //!
 //! This is the only place that joins files and algorithms. Read `options`, then `better` for why a run
 //! on its own output changes nothing, then `improve`.
@@ -36,6 +37,7 @@ mod sequence_updates;
 mod shared_progress;
 #[cfg(feature = "files")]
 mod simplify;
+mod striped_mesh;
 #[cfg(feature = "files")]
 mod vertex_groups;
 
@@ -64,3 +66,4 @@ pub use simplify::{
     SimplifiedObject, SimplifyError, SimplifyOptions, SimplifyOptionsError, SimplifyReport,
     StopReason, simplify,
 };
+pub use striped_mesh::{FacePlanes, StripedMesh, ViewFrom};

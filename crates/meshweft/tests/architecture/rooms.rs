@@ -49,6 +49,7 @@ const ROOMS: [(&str, &[&[&str]]); 23] = [
                 "progressive",
                 "compression",
                 "connectivity",
+                "culling",
                 "files",
             ],
         ],
