@@ -4,13 +4,17 @@
 
 #[path = "data/folder.rs"]
 mod data;
+#[path = "data/files.rs"]
+mod files;
 #[path = "data/placed.rs"]
 mod placed;
 
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};
 
 use meshweft::Mesh;
 use meshweft::culling::{Eye, NormalStripes, Ranges, StripedFaces};
+use meshweft::geometry::Ball;
 use placed::open;
 
 /// Closed surfaces.
@@ -22,7 +26,13 @@ const MESHES: [&str; 4] = [
 ];
 
 /// How many directions an average is taken over.
-const DIRECTIONS: u32 = 1024;
+const DIRECTIONS: usize = 1024;
+
+/// How many for each closed mesh at hand: more by hand, with `MESHWEFT_CASES`.
+const DIRECTIONS_OF_ALL: usize = 64;
+
+/// Distances at which these are seen, in radii.
+const DISTANCES: [f64; 3] = [1.5, 4.0, 10.0];
 
 type Vector = [f64; 3];
 
@@ -74,8 +84,8 @@ fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Directions alike in all parts of the sphere.
-fn directions() -> impl Iterator<Item = Vector> {
+/// Directions alike in all parts of the sphere, by chance.
+fn directions(count: usize) -> impl Iterator<Item = Vector> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut random = move || {
         state ^= state << 13;
@@ -83,7 +93,7 @@ fn directions() -> impl Iterator<Item = Vector> {
         state ^= state << 17;
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
-    (0..DIRECTIONS).map(move |_| {
+    (0..count).map(move |_| {
         let (height, longitude) = (2.0 * random() - 1.0, TAU * random());
         let radius = (1.0 - height * height).sqrt();
         [radius * longitude.sin(), height, radius * longitude.cos()]
@@ -107,16 +117,34 @@ fn planes(mesh: &Mesh, center: Vector) -> Vec<(Vector, f64)> {
     mesh.faces().iter().filter_map(plane).collect()
 }
 
-/// The mean, and how far it may be from that of all directions, three times over.
+/// The mean, and its standard error.
 fn mean(shares: &[f64]) -> (f64, f64) {
     let count = shares.len() as f64;
     let mean = shares.iter().sum::<f64>() / count;
-    let square = shares
-        .iter()
-        .map(|share| (share - mean).powi(2))
-        .sum::<f64>()
-        / (count - 1.0);
-    (mean, 3.0 * (square / count).sqrt())
+    let squares = shares.iter().map(|share| (share - mean).powi(2));
+    let variance = squares.sum::<f64>() / (count - 1.0);
+    (mean, (variance / count).sqrt())
+}
+
+/// Whether every edge joins two faces that run along it both ways, by positions.
+fn is_closed(mesh: &Mesh) -> bool {
+    let mut points = HashMap::new();
+    let mut point = |vertex: u32| {
+        // Minus zero is where zero is.
+        let bits = mesh.positions()[vertex as usize].map(|x| (x + 0.0).to_bits());
+        let count = points.len();
+        *points.entry(bits).or_insert(count)
+    };
+    let mut edges = HashSet::new();
+    for face in mesh.faces() {
+        let [a, b, c] = face.map(&mut point);
+        for edge in [[a, b], [b, c], [c, a]] {
+            if !edges.insert(edge) {
+                return false;
+            }
+        }
+    }
+    edges.iter().all(|&[a, b]| edges.contains(&[b, a]))
 }
 
 /// An eye at a distance from the middle of the faces' ball.
@@ -125,39 +153,79 @@ fn eye(striped: &StripedFaces, direction: Vector, distance: f64) -> Eye {
     Eye::at([0, 1, 2].map(|axis| narrowed(center[axis] + distance * direction[axis])))
 }
 
-#[test]
-fn any_mesh_has_the_same_share_beyond_the_cap_and_back_faces_by_its_offsets() {
-    let Some(folder) = data::folder() else { return };
-    for name in MESHES {
-        let mesh = open(&folder, name);
-        let striped = NormalStripes::default().order(&mesh);
-        let ball = striped.ball().unwrap();
-        let planes = planes(&mesh, ball.center);
-        let count = planes.len() as f64;
-        for times in [1.5, 4.0, 10.0] {
-            let (distance, sine) = (times * ball.radius, 1.0 / times);
-            let share = |of: &dyn Fn(&(Vector, f64), Vector) -> bool| {
-                let shares = directions()
-                    .map(|d| planes.iter().filter(|plane| of(plane, d)).count() as f64 / count);
-                mean(&shares.collect::<Vec<_>>())
-            };
-
-            // A normal is in no eye's cap as often as not, but for the cap's part beyond a half.
-            let (culled, error) = share(&|(n, _), d| dot(*n, d) < -sine);
-            assert!(
-                (culled - (1.0 - sine) / 2.0).abs() <= error,
-                "{name}, {times} r: {culled}"
-            );
-
-            let offsets: f64 = planes.iter().map(|(_, offset)| offset).sum();
-            let expected = 0.5 + offsets / count / (2.0 * distance);
-            let (back, error) = share(&|(n, offset), d| dot(*n, d) * distance <= *offset);
-            assert!(
-                (back - expected).abs() <= error,
-                "{name}, {times} r: {back}, {expected}"
-            );
+/// How far the means of a mesh are from Theorem 3, in standard errors: for each distance, of the faces whose normals are beyond
+/// the cap, and of the back faces.
+fn errors(mesh: &Mesh, ball: Ball, direction_count: usize) -> Vec<f64> {
+    let planes = planes(mesh, ball.center);
+    let faces = planes.len() as f64;
+    let far = DISTANCES.map(|times| times * ball.radius);
+    let sines = DISTANCES.map(|times| 1.0 / times);
+    let mut shares = [const { Vec::new() }; 6];
+    for direction in directions(direction_count) {
+        let mut counts = [0_u32; 6];
+        for (normal, offset) in &planes {
+            let toward = dot(*normal, direction);
+            for at in 0..3 {
+                counts[2 * at] += u32::from(toward < -sines[at]);
+                counts[2 * at + 1] += u32::from(toward * far[at] <= *offset);
+            }
+        }
+        for (shares, count) in shares.iter_mut().zip(counts) {
+            shares.push(f64::from(count) / faces);
         }
     }
+
+    let offset = planes.iter().map(|(_, offset)| offset).sum::<f64>() / faces;
+    let expected = [0, 1, 2].map(|at| [(1.0 - sines[at]) / 2.0, 0.5 + offset / (2.0 * far[at])]);
+    let expected = expected.as_flattened().iter();
+    let pairs = shares.iter().zip(expected);
+    let errors = pairs.map(|(shares, expected)| {
+        let (mean, error) = mean(shares);
+        (mean - expected) / error
+    });
+    errors.collect()
+}
+
+/// Theorem 3: a normal is in no eye's cap as often as not, but for the cap's part beyond a half; a face is a back face the
+/// more often the farther its plane is from the middle.
+///
+/// Of so many means some are beyond three standard errors by chance: .27 % of them are expected, and more than 5 % would be one run in
+/// eighteen at most (Markov), however much they depend on each other. One beyond five would be one run in a thousand at most, for up
+/// to 1,700 means.
+#[test]
+fn any_closed_mesh_has_the_same_share_beyond_the_cap_and_back_faces_by_its_offsets() {
+    let Some(folder) = data::folder() else { return };
+    let direction_count = std::env::var("MESHWEFT_CASES");
+    let direction_count = direction_count.map_or(DIRECTIONS_OF_ALL, |text| text.parse().unwrap());
+    let (mut meshes, mut means, mut beyond_three) = (0, 0, 0);
+    for path in files::mesh_files(&folder) {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        // It has borders, and takes as long to read as all others.
+        if name == "dragon.ply.gz" {
+            continue;
+        }
+        let mesh = open(&folder, name);
+        if !is_closed(&mesh) {
+            continue;
+        }
+        meshes += 1;
+        let used = mesh.faces().as_flattened().iter();
+        let used = used.map(|&vertex| mesh.positions()[vertex as usize].map(f64::from));
+        let ball = Ball::around(used).unwrap();
+        for error in errors(&mesh, ball, direction_count) {
+            assert!(error.abs() <= 5.0, "{name}: {error} standard errors");
+            means += 1;
+            beyond_three += u32::from(error.abs() > 3.0);
+            if error.abs() > 3.0 {
+                println!("{name}: {error:.2} standard errors");
+            }
+        }
+    }
+    println!(
+        "{meshes} closed meshes, {direction_count} directions: {means} means, {beyond_three} beyond three standard errors"
+    );
+    assert!(meshes >= 30, "{meshes} closed meshes");
+    assert!(beyond_three * 20 <= means, "{beyond_three} of {means}");
 }
 
 #[test]
@@ -172,14 +240,14 @@ fn sixteen_stripes_leave_out_nearly_what_ideal_ones_would() {
         let striped = stripes.order(&mesh);
         let distance = 4.0 * striped.ball().unwrap().radius;
         let mut ranges = Ranges::default();
-        let shares = directions().map(|direction| {
+        let shares = directions(DIRECTIONS).map(|direction| {
             let drawn = striped.visible_ranges(eye(&striped, direction, distance), &mut ranges);
             assert!(drawn.as_slice().len() <= 2 * 16 + 1);
             1.0 - drawn.face_count() as f64 / mesh.face_count() as f64
         });
         let (culled, error) = mean(&shares.collect::<Vec<_>>());
         assert!(
-            (0.375 - 0.045..0.375 + error).contains(&culled),
+            (0.375 - 0.045..0.375 + 3.0 * error).contains(&culled),
             "{name}: {culled}"
         );
     }
@@ -199,7 +267,7 @@ fn of_a_sphere_the_papers_share_of_back_faces_is_left_out() {
     for times in [1.5, 2.0, 3.0, 4.0, 10.0] {
         let distance = times * ball.radius;
         let (mut culled, mut back) = (0, 0);
-        for direction in directions().take(64) {
+        for direction in directions(64) {
             let drawn = striped.visible_ranges(eye(&striped, direction, distance), &mut ranges);
             culled += mesh.face_count() - drawn.face_count();
             let is_back = |(n, offset): &&(Vector, f64)| dot(*n, direction) * distance <= *offset;
