@@ -11,6 +11,7 @@ mod inspect;
 mod optimize;
 mod paper;
 mod plot;
+mod raster;
 mod run;
 mod simplify;
 mod usage;

@@ -15,6 +15,7 @@ use clap::{Args, Subcommand};
 
 use arguments::OfPaper;
 use bogomjakov_gotsman::BogomjakovGotsman;
+use kim_lee::KimLee;
 use lin_zhang::LinZhang;
 
 #[derive(Debug, Args)]
@@ -58,8 +59,9 @@ enum WhichPaper {
     /// many calls the rest is drawn, and what vertices cost. Frame times are not measured here.
     ///
     ///   meshweft paper kim-lee --data folder-with-meshes
+    ///   meshweft paper kim-lee --data folder-with-meshes --pictures folder
     #[command(verbatim_doc_comment)]
-    KimLee(OfPaper),
+    KimLee(KimLee),
 }
 
 /// Prints the figures of a paper for the meshes that are found.

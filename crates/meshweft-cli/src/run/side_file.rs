@@ -56,6 +56,8 @@ pub(crate) const PICTURE: SideFile = SideFile {
     is_own: |start| {
         let text = String::from_utf8_lossy(start);
         text.starts_with("<svg") && text.contains(&format!("<desc>{PICTURE_NAME}"))
+            || start.starts_with(b"\x89PNG\r\n")
+                && text.contains(&format!("Description\0{PICTURE_NAME}"))
     },
 };
 

@@ -170,3 +170,39 @@ fn meshes_of_kim_and_lee_need_positions_that_are_finite() {
         assert!(failed.err().contains(part), "{}", failed.err());
     }
 }
+
+#[test]
+fn pictures_of_kim_and_lee_are_known_again_and_replace_no_file_of_others() {
+    let folder = Folder::new("kim-lee-pictures");
+    folder.write("spot.obj", grid_obj());
+    let flags = ["paper", "kim-lee", "--data", ".", "--skip-large"];
+    let flags = [&flags[..], &["--pictures", "here"]].concat();
+    let json = folder.run(&[&flags[..], &["--json"]].concat()).json();
+    let names: Vec<String> = ["5", "6", "11", "12", "14"]
+        .map(|figure| format!("here/figure-{figure}.png"))
+        .into();
+    let files = json["files"].as_array().unwrap().iter();
+    let files = files.map(|file| file.as_str().unwrap().replace('\\', "/"));
+    assert!(files.eq(names.iter().cloned()));
+    let pictures: Vec<Vec<u8>> = names.iter().map(|name| folder.read(name)).collect();
+    assert!(
+        pictures
+            .iter()
+            .all(|picture| picture.starts_with(b"\x89PNG"))
+    );
+
+    // Its own files are replaced by the same bytes, those of others are not.
+    assert_eq!(folder.run(&flags).code(), 0);
+    assert!(
+        names
+            .iter()
+            .zip(&pictures)
+            .all(|(name, bytes)| folder.read(name) == *bytes)
+    );
+    folder.write("here/figure-12.png", "\u{89}PNG of others");
+    let refused = folder.run(&flags);
+    assert_eq!(refused.code(), 2);
+    for part in ["figure-12.png", "--force"] {
+        assert!(refused.err().contains(part), "{}", refused.err());
+    }
+}

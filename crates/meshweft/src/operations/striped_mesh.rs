@@ -123,6 +123,12 @@ impl FacePlanes {
         })
     }
 
+    /// The smallest ball around all vertices of faces.
+    #[must_use]
+    pub fn ball(&self) -> Ball {
+        self.ball
+    }
+
     /// Whether each face is a back face: turned away, in a plane with the eye, or without an area.
     #[must_use]
     pub fn is_back(&self, view: ViewFrom) -> Vec<bool> {

@@ -39,21 +39,12 @@ impl Found {
                             file.display()
                         ));
                     }
+                    Some((file, mesh)) if lies_on_its_side(&file) => upright(&mesh)?,
                     Some((_, mesh)) => mesh,
                     None => continue,
                 },
             };
-            let star = if mesh.face_count() == printed.faces {
-                ""
-            } else {
-                "*"
-            };
-            found.extend(FacePlanes::of(&mesh).map(|planes| Self {
-                name: format!("{}{star}", printed.mesh),
-                mesh,
-                planes,
-                printed,
-            }));
+            found.extend(of_mesh(mesh, printed));
         }
         if found.iter().all(|it| it.printed.mesh == SPHERE) {
             found.clear();
@@ -65,6 +56,30 @@ impl Found {
     pub(super) fn share(&self, faces: usize) -> f64 {
         faces as f64 / self.mesh.face_count() as f64
     }
+}
+
+/// Whether z is upward in a known file, and x forward: elsewhere these are y and z.
+fn lies_on_its_side(file: &Path) -> bool {
+    let name = file.file_name().map(|name| name.to_string_lossy());
+    name.is_some_and(|name| name.starts_with("venus_bust."))
+}
+
+/// The same mesh with y upward and z forward.
+fn upright(mesh: &Mesh) -> Result<Mesh> {
+    let positions = mesh.positions().iter().map(|&[x, y, z]| [y, z, x]);
+    Ok(Mesh::new(positions.collect::<Vec<_>>(), mesh.faces())?)
+}
+
+/// With a star where the paper's mesh has another number of faces; `None` without finite positions.
+pub(super) fn of_mesh(mesh: Mesh, printed: &'static Printed) -> Option<Found> {
+    let is_the_papers = mesh.face_count() == printed.faces;
+    let star = if is_the_papers { "" } else { "*" };
+    FacePlanes::of(&mesh).map(|planes| Found {
+        name: format!("{}{star}", printed.mesh),
+        mesh,
+        planes,
+        printed,
+    })
 }
 
 /// The mean of a number over views.

@@ -1,13 +1,17 @@
 //! Tables 1 to 4 and figures 9, 10 and 13 of Kim and Lee, beside ours; figures 5, 6, 11, 12 and 14 as pictures.
 
 mod found;
+mod pictures;
 mod printed;
 mod shares;
 mod sweeps;
 mod times;
 mod vertex_work;
 
+use std::path::PathBuf;
+
 use anyhow::Result;
+use clap::Args;
 
 use super::arguments::OfPaper;
 use super::figure::print;
@@ -18,13 +22,28 @@ use sweeps::{fig_13, table_3};
 use times::table_1;
 use vertex_work::table_4;
 
+#[derive(Debug, Args)]
+pub(super) struct KimLee {
+    #[command(flatten)]
+    of_paper: OfPaper,
+    /// Also draw figures 5, 6, 11, 12 and 14, as PNG files in this folder
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
+    /// Let --pictures replace files that another program wrote
+    #[arg(long, requires = "pictures")]
+    force: bool,
+}
+
 /// Prints the tables for the meshes found in the data folder.
-pub(super) fn run(arguments: &OfPaper) -> Result<()> {
+pub(super) fn run(arguments: &KimLee) -> Result<()> {
     let OfPaper {
         data,
         skip_large,
         report,
-    } = arguments;
+    } = &arguments.of_paper;
+    if let Some(folder) = &arguments.pictures {
+        pictures::check(folder, arguments.force)?;
+    }
     let mut found = Found::open_all(data)?;
     if *skip_large {
         found.retain(|it| it.mesh.face_count() <= LARGE);
@@ -33,6 +52,10 @@ pub(super) fn run(arguments: &OfPaper) -> Result<()> {
         return Err(none_found(data));
     }
 
+    let written = match &arguments.pictures {
+        Some(folder) => pictures::write(folder, &found)?,
+        None => Vec::new(),
+    };
     print(
         report,
         "doi:10.3390/sym14030466",
@@ -44,6 +67,6 @@ pub(super) fn run(arguments: &OfPaper) -> Result<()> {
             ("Fig. 13", "figure_13", &|| Ok(fig_13(&found))),
             ("Table 4", "table_4", &|| Ok(table_4(&found))),
         ],
-        &[],
+        &written,
     )
 }

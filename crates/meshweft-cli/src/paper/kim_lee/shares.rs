@@ -169,7 +169,7 @@ pub(super) fn table_2(found: &[Found]) -> Figure {
         title: format!(
             "Back faces and those of them that are left out, in percent of all faces, from 4r: the paper's (from the left),\n\
              means over {DIRECTIONS} directions, and from each axis (-x is the left where y is upward). exact: stripes and ranges \
-             without\na width, the mean by Theorem 3; most: the largest share of the back faces that they leave out. * as above.\
+             without\na width, the mean over all directions; most: the largest share of the back faces that they leave out. * as above.\
              {notes}"
         ),
         rows,
