@@ -131,7 +131,7 @@ pub(super) fn table_3(skip_large: bool) -> Figure {
         title: format!(
             "Spheres drawn whole and in V stripes of {RANGES} ranges, from 4r, means over {DIRECTIONS} directions: the share \
              that is drawn,\nthe calls, and what a FIFO cache of {CACHE} misses, of each face drawn and of each face of the \
-             sphere. The paper's\nmilliseconds are of 125 spheres; a card's frame times are measured by the program in gpu/. \
+             sphere. The paper's\nmilliseconds are of 125 spheres; a card's frame times are measured by `cull` of the program in gpu/. \
              On a sphere alone faces\nwith like normals are near each other, so here stripes cost no vertices: Table 4 has other meshes."
         ),
         rows,

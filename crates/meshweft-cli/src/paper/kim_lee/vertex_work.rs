@@ -71,7 +71,7 @@ pub(super) fn table_4(found: &[Found]) -> Figure {
              ours,\nand of what stripes draw, whose ranges keep the file's order or ours; means over {DIRECTIONS} directions. Beyond \
              spheres,\nstripes cost vertex work: faces with like normals are scattered over the surface, and the two thirds that are \
              drawn miss\nmore than all faces do in a good order. They pay where faces are the limit, or against a bad order. The \
-             paper's gain is\nof frame times, against an order that it does not name; a card's are measured by the program in gpu/."
+             paper's gain is\nof frame times, against an order that it does not name; a card's are measured by `cull` of the program in gpu/."
         ),
         rows,
         json: json!({"cache_size": CACHE, "rows": json}),
