@@ -243,20 +243,20 @@ impl ScaledEye {
     fn seen<const BOX: bool>(&self, group: &Group) -> u8 {
         let [x, y, z, w] = self.eye;
         let [hx, hy, hz] = self.half;
-        // The sign of a number below the limit is set: of a cluster that is not seen, for all planes.
-        let mut hidden = [u32::MAX; LANES];
+        let mut most = [f32::NEG_INFINITY; LANES];
         for [xs, ys, zs, os] in group {
             for lane in 0..LANES {
                 let mut at = xs[lane] * x + ys[lane] * y + (zs[lane] * z + os[lane] * w);
                 if BOX {
                     at += xs[lane].abs() * hx + ys[lane].abs() * hy + zs[lane].abs() * hz;
                 }
-                hidden[lane] &= (at - self.limit).to_bits();
+                // Not `f32::max`, which takes care of what is no number: all are.
+                most[lane] = if at > most[lane] { at } else { most[lane] };
             }
         }
-        let mut seen = 0;
-        for (lane, hidden) in hidden.iter().enumerate() {
-            seen |= (!hidden >> 31) << lane;
+        let mut seen = 0_u32;
+        for (lane, most) in most.iter().enumerate() {
+            seen |= u32::from(*most >= self.limit) << lane;
         }
         #[expect(clippy::cast_possible_truncation, reason = "eight bits")]
         let seen = seen as u8;
