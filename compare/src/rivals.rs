@@ -133,3 +133,55 @@ pub fn forsyth(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
         .map(|c| [c[0], c[1], c[2]])
         .collect()
 }
+
+/// A meshlet: its vertices by their numbers in the mesh, and its faces by the places of their vertices in it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RivalMeshlet {
+    /// The vertices.
+    pub vertices: Vec<u32>,
+    /// The faces.
+    pub faces: Vec<[u8; 3]>,
+}
+
+/// Meshoptimizer's meshlets of a mesh, each after its own pass inside.
+///
+/// # Panics
+/// If the mesh has no positions, or a limit is one that meshoptimizer refuses.
+#[must_use]
+pub fn meshlets(
+    mesh: &Mesh,
+    vertex_limit: usize,
+    face_limit: usize,
+    cone_weight: f32,
+) -> Vec<RivalMeshlet> {
+    assert!((3..=256).contains(&vertex_limit) && (1..=512).contains(&face_limit));
+    let vertices = vertex_data(mesh);
+    let indices = mesh.faces().as_flattened();
+    let made = meshopt::build_meshlets(indices, &vertices, vertex_limit, face_limit, cone_weight);
+    let meshlet = |meshlet: meshopt::Meshlet<'_>| RivalMeshlet {
+        vertices: meshlet.vertices.to_vec(),
+        faces: meshlet.triangles.as_chunks().0.to_vec(),
+    };
+    made.iter().map(meshlet).collect()
+}
+
+/// Meshoptimizer's cone of a meshlet: apex, axis, cutoff.
+///
+/// # Panics
+/// If the mesh has no positions.
+#[must_use]
+pub fn cone(mesh: &Mesh, meshlet: &RivalMeshlet) -> ([f32; 3], [f32; 3], f32) {
+    let view = meshopt::Meshlet {
+        vertices: &meshlet.vertices,
+        triangles: meshlet.faces.as_flattened(),
+    };
+    let bounds = meshopt::compute_meshlet_bounds(view, &vertex_data(mesh));
+    (bounds.cone_apex, bounds.cone_axis, bounds.cone_cutoff)
+}
+
+fn vertex_data(mesh: &Mesh) -> meshopt::VertexDataAdapter<'_> {
+    assert_eq!(mesh.positions().len(), mesh.vertex_count(), "no positions");
+    let bytes = meshopt::typed_to_bytes(mesh.positions());
+    let adapter = meshopt::VertexDataAdapter::new(bytes, size_of::<[f32; 3]>(), 0);
+    adapter.expect("positions of 12 bytes each")
+}

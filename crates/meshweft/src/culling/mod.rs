@@ -18,8 +18,11 @@
 //! moved by joints or morph targets.
 
 mod clusters;
+#[cfg(test)]
+mod exact;
 mod eye;
 mod facing;
+mod meshlets;
 #[cfg(test)]
 mod paper_circle_tests;
 mod planes;
@@ -31,6 +34,7 @@ mod tests;
 
 pub use clusters::{ClusteredFaces, SampledEyes, ViewClusters};
 pub use eye::{Eye, EyeBox};
+pub use meshlets::{MeshletMesh, Meshlets, NormalCone, order_meshlet};
 pub use ranges::Ranges;
 pub use stripes::{NormalStripes, StripedFaces};
 pub use table::CullingTable;

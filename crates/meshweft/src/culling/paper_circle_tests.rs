@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::tests::{assert_all_front, ball, is_front, on_lattice};
+use super::exact::{assert_all_front, ball, is_front, on_lattice};
 use super::{Eye, NormalStripes, Ranges};
 use crate::geometry::Ball;
 use crate::geometry::double::{cross, dot, scaled, sub, widened};

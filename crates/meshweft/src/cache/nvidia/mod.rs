@@ -33,4 +33,5 @@ mod setup;
 pub(crate) use batcher::{BATCH_FACES, Batcher, LANES, WINDOW};
 pub use draw::{Draw, DrawCounts, PrimitiveTopology, counts};
 pub(crate) use invocations::invocations;
-pub(crate) use setup::Setup;
+pub use setup::meshlet_setup_cycles;
+pub(crate) use setup::{LaneSet, Setup};
