@@ -9,7 +9,7 @@ use crate::random::{SplitMix64, from_environment};
 /// Positions and eyes are multiples of this, so that signs are exact in 128 bits.
 pub(super) const UNIT: f32 = 1.0 / 4096.0;
 
-fn in_units(x: f32) -> i128 {
+pub(super) fn in_units(x: f32) -> i128 {
     let units = f64::from(x / UNIT);
     assert_eq!(units, units.round(), "{x} is not a multiple");
     #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]

@@ -1,6 +1,6 @@
 use super::*;
 use crate::cache::nvidia::meshlet_setup_cycles;
-use crate::culling::exact::{any_eye, assert_all_front, ball, is_front, on_lattice, soup};
+use crate::culling::exact::{self, any_eye, assert_all_front, ball, is_front, on_lattice, soup};
 use crate::geometry::Ball;
 use crate::geometry::double::widened;
 use crate::random::SplitMix64;
@@ -152,6 +152,75 @@ fn cones_leave_out_no_front_face() {
         culled > 200_000 && in_shader > 200_000,
         "{culled} and {in_shader}"
     );
+}
+
+#[test]
+fn by_visibility_fewer_ranges_are_drawn_of_the_same_faces() {
+    let mut random = SplitMix64(11);
+    let mesh = ball(60, 80, 1.0, false, &mut random);
+    let settings = Meshlets {
+        face_limit: 24,
+        ..Meshlets::default()
+    };
+    let made = settings.build(&mesh);
+    let sorted = made.by_visibility();
+    assert_is_sound(&mesh, settings, &sorted);
+    let around = Ball::around(mesh.positions().iter().copied().map(widened)).unwrap();
+    let mut draws = [0, 0];
+    let [mut before, mut after] = [Ranges::default(), Ranges::default()];
+    for _ in 0..100 {
+        let eye = any_eye(&mesh, around, &mut random);
+        made.visible_ranges(eye, &mut before);
+        sorted.visible_ranges(eye, &mut after);
+        assert_eq!(before.face_count(), after.face_count());
+        assert_all_front(&mesh, sorted.order().new_to_old(), eye, &after);
+        draws[0] += before.as_slice().len();
+        draws[1] += after.as_slice().len();
+    }
+    assert!(draws[1] < draws[0], "{draws:?}");
+}
+
+/// A coordinate in units of 2⁻⁶⁴; `None` if it is none of these.
+fn in_units(x: f32) -> Option<i128> {
+    let units = f64::from(x) * 2_f64.powi(64);
+    #[expect(clippy::cast_possible_truncation, reason = "of points that are near")]
+    (units == units.round()).then_some(units as i128)
+}
+
+#[test]
+fn apexes_are_behind_all_planes() {
+    let mut random = SplitMix64(9);
+    let mut checked = 0;
+    for _ in 0..300 {
+        // A mesh far from the origin: rounding moves an apex by much of its size.
+        let is_inside_out = random.below(2) == 0;
+        let near = ball(4, 9, 1.0, is_inside_out, &mut random);
+        let away = on_lattice(random.below(1_900_000) as f64 / 1000.0);
+        let moved = near.positions().iter().map(|point| point.map(|x| x + away));
+        let mesh = Mesh::new(moved.collect::<Vec<_>>(), near.faces()).unwrap();
+        let made = any_settings(&mut random).build(&mesh);
+        let faces = made.order().apply(mesh.faces());
+        for (cone, ends) in made.cones().iter().zip(made.starts().windows(2)) {
+            let apex = cone.apex.map(in_units);
+            let ([Some(x), Some(y), Some(z)], true) = (apex, cone.cutoff < 1.0) else {
+                continue;
+            };
+            for face in &faces[ends[0] as usize..ends[1] as usize] {
+                let [a, b, c] = face.map(|vertex| mesh.positions()[vertex as usize]);
+                let edge = |p: [f32; 3]| [0, 1, 2].map(|i| exact::in_units(p[i] - a[i]));
+                let (u, v) = (edge(b), edge(c));
+                let way = [0, 1, 2].map(|i| [x, y, z][i] - in_units(a[i]).unwrap());
+                let normal = [0, 1, 2].map(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    u[j] * v[k] - u[k] * v[j]
+                });
+                let height: i128 = (0..3).map(|i| normal[i] * way[i]).sum();
+                assert!(height <= 0, "{cone:?} before {a:?} {b:?} {c:?}");
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 10_000, "{checked}");
 }
 
 #[test]
