@@ -13,8 +13,7 @@ use crate::topology::{Adjacency, distinct};
 const MOST_STARTS: usize = 256;
 
 /// What counts beside a distance of the radius of a meshlet, which is 1, as a finished vertex is: normals across the
-/// others', and a face more. By the vertices of all meshlets, and the faces that cones leave out, of two scans; between half
-/// and twice as much they change by 1 %.
+/// others', and a face more. Chosen by the vertices of all meshlets, and by what their cones leave out, of two scans.
 const SPREAD: f64 = 8.0;
 const GAINED: f64 = 0.5;
 

@@ -24,7 +24,8 @@ pub struct Meshlets {
     /// Most faces, 1 to 512.
     pub face_limit: u32,
     /// How much similar normals count against a small extent, from 0 to 1. Larger ones let cones leave out more faces, and
-    /// meshlets have more vertices together.
+    /// meshlets have more vertices together. Where ranges are drawn, 1 is best, with
+    /// [`by_visibility`](super::MeshletMesh::by_visibility).
     pub cone_weight: f32,
 }
 
