@@ -62,13 +62,15 @@ fn run() -> Result<(), String> {
     );
     println!("|---|---|--:|---|{}", "--:|".repeat(15));
     let mut shader_rows = Vec::new();
+    let mut ratios = Vec::new();
     for file in &files {
         let mesh = compare::read_as_one(file)?;
         if mesh.face_count() <= LEAST_FACES && is_all {
             continue;
         }
         let name = compare::mesh_name(file);
-        views(&name, &mesh)?;
+        let rows = views(&name, &mesh)?;
+        ratios.extend(against_rival(&name, &rows));
         shader_rows.extend(shader_figures(&name, &mesh));
     }
 
@@ -79,7 +81,54 @@ fn run() -> Result<(), String> {
     for row in shader_rows {
         println!("{row}");
     }
+    print_ratios(&ratios);
     Ok(())
+}
+
+/// Means of figures over the eyes of each distance, of an order.
+type Row = (String, [[f64; FIGURES]; DISTANCES.len()]);
+
+/// What clusters take of what meshoptimizer's meshlets take, at each distance: misses, warps, draws.
+type Ratios = (String, [[f64; 3]; DISTANCES.len()]);
+
+/// Misses and draws of the default clusters, warps of those for a card.
+fn against_rival(name: &str, rows: &[Row]) -> Option<Ratios> {
+    let of = |start: &str| rows.iter().find(|(order, _)| order.starts_with(start));
+    let (_, rival) = of("meshopt 64/124")?;
+    let [(_, ours), (_, for_card)] = [of(orders::CLUSTERS)?, of(orders::CLUSTERS_FOR_CARD)?];
+    let ratios = std::array::from_fn(|far| {
+        [
+            ours[far][0] / rival[far][0],
+            for_card[far][1] / rival[far][1],
+            ours[far][2] / rival[far][2],
+        ]
+    });
+    Some((name.to_owned(), ratios))
+}
+
+fn print_ratios(ratios: &[Ratios]) {
+    println!(
+        "\n| clusters over meshopt's meshlets | from | geometric mean | worst |\n|---|---|--:|---|"
+    );
+    for (figure, name) in ["misses", "warps, for the card", "draws"]
+        .iter()
+        .enumerate()
+    {
+        for (far, (distance, _)) in DISTANCES.iter().enumerate() {
+            let logs = ratios.iter().map(|(_, ratios)| ratios[far][figure].ln());
+            let mean = (logs.sum::<f64>() / ratios.len() as f64).exp();
+            let worst = ratios
+                .iter()
+                .max_by(|a, b| a.1[far][figure].total_cmp(&b.1[far][figure]));
+            if let Some((mesh, worst)) = worst {
+                println!(
+                    "| {name} | {distance} | {mean:.3} | {:.3} {mesh} |",
+                    worst[far][figure]
+                );
+            }
+        }
+    }
+    println!("{} meshes", ratios.len());
 }
 
 /// What is counted of a view: misses a face, warps over the whole, draws, share of back faces not drawn; and the time in
@@ -94,8 +143,8 @@ struct Views {
     unsure: usize,
 }
 
-/// Prints the rows of a mesh.
-fn views(name: &str, mesh: &Mesh) -> Result<(), String> {
+/// Prints the rows of a mesh; the means of each order.
+fn views(name: &str, mesh: &Mesh) -> Result<Vec<Row>, String> {
     let around = Ball::around(mesh.positions().iter().map(|point| point.map(f64::from)));
     let ball = around.ok_or_else(|| format!("{name}: no finite position"))?;
     let whole = orders::whole(mesh);
@@ -112,7 +161,14 @@ fn views(name: &str, mesh: &Mesh) -> Result<(), String> {
     let rival = rival.min_by(|a, b| a.0.total_cmp(&b.0));
     let others = orders::ours(mesh);
     let rows = whole.into_iter().map(seen).chain(rival);
+    let mut means = Vec::new();
     for (_, order, views) in rows.chain(others.into_iter().map(seen)) {
+        let mean = |figures: &Vec<f64>| figures.iter().sum::<f64>() / figures.len() as f64;
+        let of_far = |views: &Views| std::array::from_fn(|figure| mean(&views.figures[figure]));
+        means.push((
+            order.name.clone(),
+            std::array::from_fn(|far| of_far(&views[far])),
+        ));
         for ((distance, _), views) in DISTANCES.iter().zip(views) {
             let mut cells = vec![
                 name.to_owned(),
@@ -121,7 +177,7 @@ fn views(name: &str, mesh: &Mesh) -> Result<(), String> {
                 (*distance).to_owned(),
             ];
             for figures in &views.figures {
-                let mean = figures.iter().sum::<f64>() / figures.len() as f64;
+                let mean = mean(figures);
                 let most = figures.iter().fold(f64::MIN, |most, x| most.max(*x));
                 let least = figures.iter().fold(f64::MAX, |least, x| least.min(*x));
                 // More back faces are better.
@@ -134,7 +190,7 @@ fn views(name: &str, mesh: &Mesh) -> Result<(), String> {
             println!("| {} |", cells.join(" | "));
         }
     }
-    Ok(())
+    Ok(means)
 }
 
 /// Looks at an order from all eyes of a distance.

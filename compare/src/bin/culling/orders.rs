@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use compare::rivals::{self, Meshopt};
 use compare::timing::timed;
-use meshweft::culling::{Eye, MeshletMesh, Meshlets, NormalStripes, Ranges};
+use meshweft::culling::{Eye, MeshletMesh, Meshlets, NormalStripes, Ranges, ViewClusters};
 use meshweft::order::{Optimizer, vertex_fetch};
-use meshweft::{FaceOrder, Faces, Mesh};
+use meshweft::{CacheModel, FaceOrder, Faces, Mesh};
 
 /// An order of a mesh's faces, and what of them an eye needs.
 pub(crate) struct Order {
@@ -75,6 +75,11 @@ fn is_hidden((apex, axis, cutoff): &Cone, eye: Eye) -> bool {
     dot(way.map(|x| x / length), *axis) >= *cutoff
 }
 
+/// View-mask clusters, as they are by default.
+pub(crate) const CLUSTERS: &str = "**clusters**";
+/// The same, with the faces of each in an order for an NVIDIA card.
+pub(crate) const CLUSTERS_FOR_CARD: &str = "**clusters, nvidia**";
+
 /// Orders that are drawn as a whole: meshoptimizer's and the library's.
 pub(crate) fn whole(mesh: &Mesh) -> Vec<Order> {
     let rival = || Meshopt::VertexCache.ordered(mesh);
@@ -121,7 +126,22 @@ pub(crate) fn ours(mesh: &Mesh) -> Vec<Order> {
         orders.push(culled(mesh, name, seconds, &order, Box::new(find)));
     }
 
-    // VIEW-MASK CLUSTERS go here: what has an order and `visible_ranges` is added by the same three lines.
+    let for_card = ViewClusters {
+        optimizer: Optimizer::for_cache(CacheModel::Nvidia),
+        ..ViewClusters::default()
+    };
+    let makes = [
+        (CLUSTERS, ViewClusters::default()),
+        (CLUSTERS_FOR_CARD, for_card),
+    ];
+    for (name, clusters) in makes {
+        let (seconds, clustered) = timed(|| clusters.order(mesh));
+        let order = clustered.order().clone();
+        let find = move |eye: Eye, ranges: &mut Ranges| {
+            clustered.table().visible_ranges(eye, ranges);
+        };
+        orders.push(culled(mesh, name, seconds, &order, Box::new(find)));
+    }
 
     orders
 }
