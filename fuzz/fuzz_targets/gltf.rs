@@ -10,7 +10,8 @@ use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
 use meshweft::attribute::{Attribute, Semantic};
-use meshweft::files::{Document, Edit, Format, NewMesh, NewVertices, ReadOptions};
+use meshweft::culling::{CullingTable, Eye, Ranges};
+use meshweft::files::{Document, Edit, Format, MeshEntry, NewMesh, NewVertices, ReadOptions};
 use meshweft::{FaceOrder, Limits, Permutation, VertexOrder};
 
 /// A new mesh of one face.
@@ -62,8 +63,9 @@ fn reverse(document: &mut Document) {
     for mesh in 0..document.meshes().len() {
         let before = triangles(document, mesh);
         check_attributes(document, mesh);
+        check_table(document, mesh);
         let entry = &document.meshes()[mesh];
-        let faces = FaceOrder::from(reversed(entry.record_count()));
+        let faces = reversed_in_runs(entry);
         let faces = entry.faces_movable.then_some(faces);
         let vertices = entry
             .vertices_movable
@@ -72,6 +74,31 @@ fn reverse(document: &mut Document) {
             .edit(Edit::order(mesh, faces.as_ref(), vertices.as_ref()))
             .expect("the orders have the right lengths");
         assert_eq!(before, triangles(document, mesh));
+    }
+}
+
+/// The faces of each run, such as the clusters of a culling table, the last first.
+fn reversed_in_runs(entry: &MeshEntry) -> FaceOrder {
+    let end = u32::try_from(entry.record_count()).expect("records have 32-bit numbers");
+    let ends = entry.runs.iter().copied().skip(1).chain([end]);
+    let runs = entry.runs.iter().zip(ends);
+    let order: Vec<u32> = runs.flat_map(|(&start, end)| (start..end).rev()).collect();
+    Permutation::new(order).expect("every record comes once").into()
+}
+
+/// Whatever table a mesh has, looking at it does no harm.
+fn check_table(document: &Document, mesh: usize) {
+    let Some(table) = document.culling(mesh) else {
+        return;
+    };
+    assert_eq!(table.starts.len(), document.meshes()[mesh].runs.len() + 1);
+    let table = CullingTable::from_parts(table.center, table.reach, table.starts, &table.planes);
+    if let Ok(table) = table {
+        let mut ranges = Ranges::default();
+        for eye in [Eye::at([1.0, 2.0, 3.0]), Eye::towards([-1e-30, 1e30, 0.0])] {
+            let drawn = table.visible_ranges(eye, &mut ranges).face_count();
+            assert!(drawn <= document.meshes()[mesh].mesh.face_count());
+        }
     }
 }
 

@@ -5,6 +5,7 @@ mod caches;
 mod columns;
 mod compare;
 mod compress;
+mod cull;
 mod decompress;
 mod demo;
 mod inspect;
@@ -22,6 +23,7 @@ use clap::{Parser, Subcommand};
 
 use compare::Compare;
 use compress::Compress;
+use cull::Cull;
 use decompress::Decompress;
 use demo::Demo;
 use inspect::Inspect;
@@ -81,6 +83,8 @@ enum Verb {
     ///   meshweft decompress scan.mwz -o scan.glb
     #[command(verbatim_doc_comment)]
     Decompress(Decompress),
+    /// Say which faces need not be drawn, from wherever a mesh is seen
+    Cull(Cull),
     /// Count cache misses of files as they are
     ///
     ///   meshweft inspect scene.glb --cache fifo:12 --cache nvidia --json
@@ -110,6 +114,7 @@ fn main() -> ExitCode {
         Verb::Simplify(arguments) => simplify::run(arguments),
         Verb::Compress(arguments) => compress::run(arguments),
         Verb::Decompress(arguments) => decompress::run(arguments),
+        Verb::Cull(arguments) => cull::run(arguments),
         Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Compare(arguments) => compare::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),

@@ -103,6 +103,26 @@ impl Axis {
         }
     }
 
+    /// From 0 to 1, or as far as the curves go.
+    pub(crate) fn of_shares(name: &'static str, curves: &[Curve]) -> Self {
+        let greatest = values(curves, 1).fold(1.0, f64::max);
+        let tenths = (10.0 * greatest).ceil();
+        let mut ticks = Vec::new();
+        let mut tenth = 0.0;
+        while tenth <= tenths {
+            let share = tenth / 10.0;
+            ticks.push((share, format!("{share:.1}")));
+            tenth += 1.0;
+        }
+        Self {
+            name,
+            low: 0.0,
+            high: tenths / 10.0,
+            is_log: false,
+            ticks,
+        }
+    }
+
     /// Whole decades around one coordinate of these curves.
     pub(crate) fn of_decades(name: &'static str, curves: &[Curve], coordinate: usize) -> Self {
         let found = || values(curves, coordinate).filter(|value| *value > 0.0);

@@ -3,6 +3,7 @@
 mod basics;
 mod compress;
 mod content;
+mod cull;
 mod data;
 mod demo;
 mod disk;

@@ -29,6 +29,7 @@ mod planes;
 mod ranges;
 mod stripes;
 mod table;
+mod table_error;
 #[cfg(test)]
 mod tests;
 
@@ -38,3 +39,4 @@ pub use meshlets::{MeshletMesh, Meshlets, NormalCone, order_meshlet};
 pub use ranges::Ranges;
 pub use stripes::{NormalStripes, StripedFaces};
 pub use table::CullingTable;
+pub use table_error::CullingTableError;

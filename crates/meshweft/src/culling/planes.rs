@@ -11,6 +11,17 @@ pub(super) type Planes = [[f32; 4]; 4];
 /// Of a cluster that is always drawn.
 pub(super) const ALWAYS: Planes = [[0.0, 0.0, 0.0, 1.0]; 4];
 
+/// Whether [`around`] may have made a plane within this reach.
+pub(super) fn is_within([x, y, z, offset]: [f32; 4], reach: f32) -> bool {
+    let numbers = [x, y, z, offset, reach].map(f64::from);
+    let [x, y, z, offset, reach] = numbers;
+    // An apex is a corner of a box at most, moved back; all is rounded.
+    let farthest = 2.0 * APEX_REACH * reach;
+    let is_constant = [x, y, z] == [0.0; 3] && offset.abs() == 1.0;
+    // Also false for NaN.
+    is_constant || x * x + y * y + z * z <= 1.0 + 1e-6 && offset.abs() <= farthest
+}
+
 /// How the corners of the normals' rectangle are turned: so many ways are tried.
 const TURNS: u32 = 8;
 

@@ -6,6 +6,7 @@ use super::eye::{Eye, EyeBox};
 use super::facing::{Facing, MARGIN};
 use super::planes::{self, APEX_REACH, Planes, rounded};
 use super::ranges::Ranges;
+use super::table_error::CullingTableError;
 use crate::geometry::Ball;
 use crate::geometry::double::{sub, widened};
 use crate::index::index32;
@@ -25,6 +26,9 @@ pub struct CullingTable {
     starts: Vec<u32>,
     groups: Vec<Group>,
 }
+
+/// The reach of a table is below it, so that nothing that is computed of it is infinite.
+const MOST_REACH: f32 = f32::MAX / 32.0;
 
 /// So many clusters are looked at together.
 const LANES: usize = 8;
@@ -72,7 +76,7 @@ impl CullingTable {
                 .sum::<f64>();
             (ball.radius + moved + position_error) * (1.0 + MARGIN)
         });
-        let is_sound = reach > f64::from(f32::MIN_POSITIVE) && reach < f64::from(f32::MAX) / 64.0;
+        let is_sound = reach > f64::from(f32::MIN_POSITIVE) && reach < 0.5 * f64::from(MOST_REACH);
 
         // The planes of each cluster.
         let eyes: Vec<[f64; 4]> = eyes.iter().filter_map(|eye| eye.around(origin)).collect();
@@ -102,6 +106,47 @@ impl CullingTable {
             reach: rounded(reach * (1.0 + MARGIN)),
             starts: starts.to_vec(),
             groups: grouped(&planes.concat()),
+        }
+    }
+
+    /// The table of these parts, as a file has them: [`center`](Self::center), [`reach`](Self::reach),
+    /// [`starts`](Self::starts) and the [`planes`](Self::planes) of each cluster. Whether it is true of a mesh is not
+    /// known: a table of another mesh may leave out what is seen.
+    ///
+    /// # Errors
+    /// No table has such parts.
+    ///
+    /// # Complexity
+    /// Time and space O(clusters).
+    pub fn from_parts(
+        center: [f32; 3],
+        reach: f32,
+        starts: Vec<u32>,
+        planes: &[[[f32; 4]; 4]],
+    ) -> Result<Self, CullingTableError> {
+        if starts.first() != Some(&0) || !starts.is_sorted() {
+            return Err(CullingTableError::Starts);
+        }
+        let clusters = starts.len() - 1;
+        if planes.len() != clusters {
+            let found = planes.len();
+            return Err(CullingTableError::Count { clusters, found });
+        }
+        // Also false for NaN.
+        let is_in_range = (0.0..MOST_REACH).contains(&reach);
+        if !is_in_range || center.iter().any(|x| !x.is_finite()) {
+            return Err(CullingTableError::Ball);
+        }
+        let is_sound =
+            |planes: &Planes| planes.iter().all(|&plane| planes::is_within(plane, reach));
+        match planes.iter().position(|planes| !is_sound(planes)) {
+            Some(cluster) => Err(CullingTableError::Plane { cluster }),
+            None => Ok(Self {
+                center,
+                reach,
+                starts,
+                groups: grouped(planes),
+            }),
         }
     }
 

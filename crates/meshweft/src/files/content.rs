@@ -10,6 +10,7 @@ use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::placing::{Beside, Placed};
 use super::select::SelectPlan;
+use super::stored_culling::{SeenSides, StoredCulling};
 use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -57,6 +58,19 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
         _values: &[NewValue<'_>],
     ) -> Result<Vec<Note>, Problem> {
         let text = "meshes can be added to .gltf and .glb files only";
+        Err(FileErrorKind::unsupported(text).at(Place::File))
+    }
+    /// The culling table of a mesh, if it has one.
+    fn culling(&self, _mesh: usize) -> Option<StoredCulling> {
+        None
+    }
+    /// Which sides of the faces of each mesh are seen, or why none of them may be left out.
+    fn seen_sides(&self) -> Vec<Result<SeenSides, &'static str>> {
+        vec![Ok(SeenSides::Front); self.meshes().len()]
+    }
+    /// Does [`Edit::Cull`](super::Edit::Cull), or changes nothing; the notes of the document as it then is.
+    fn cull(&mut self, _tables: &[(usize, &StoredCulling)]) -> Result<Vec<Note>, Problem> {
+        let text = "culling tables can be added to .gltf and .glb files only";
         Err(FileErrorKind::unsupported(text).at(Place::File))
     }
     /// The files beside the main one.

@@ -17,6 +17,7 @@ use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::select::SelectPlan;
+use super::stored_culling::{SeenSides, StoredCulling};
 use super::surroundings::{Surroundings, check_size};
 use super::unlisted::Unlisted;
 use super::{gltf, obj, off, ply, signature, stl, vrml};
@@ -342,6 +343,27 @@ impl Document {
         kinds.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
     }
 
+    /// The culling table that the file has of a mesh, in the order in which the faces now are. Its structure was checked, its
+    /// numbers were not.
+    ///
+    /// # Panics
+    /// If there is no such mesh.
+    ///
+    /// # Complexity
+    /// Time and space O(clusters).
+    #[must_use]
+    pub fn culling(&self, mesh: usize) -> Option<StoredCulling> {
+        assert!(mesh < self.meshes().len(), "there is no mesh {mesh}");
+        self.content.culling(mesh)
+    }
+
+    /// Which sides of the faces of each mesh are seen, or why none of them may be left out.
+    ///
+    /// Time O(bytes of text).
+    pub(crate) fn seen_sides(&self) -> Vec<Result<SeenSides, &'static str>> {
+        self.content.seen_sides()
+    }
+
     /// What the file holds that is neither in its meshes nor in their attributes: materials, lines, what is said
     /// of some faces only.
     ///
@@ -398,6 +420,15 @@ impl Document {
                     self.notes = notes.map_err(in_file)?;
                     self.is_edited = true;
                 }
+            }
+            Edit::Cull { tables } => {
+                if tables.is_empty() {
+                    return Ok(());
+                }
+                let notes = self.content.cull(tables);
+                self.notes =
+                    notes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
+                self.is_edited = true;
             }
             Edit::Append { meshes, values } => {
                 let notes = self.content.append(meshes, values);

@@ -4,6 +4,7 @@ use super::entry::MeshEntry;
 use super::error::FileErrorKind;
 use super::new_mesh::NewMesh;
 use super::select::{SelectedFaces, SelectedVertices};
+use super::stored_culling::StoredCulling;
 use crate::error::MeshError;
 use crate::permutation::{FaceOrder, VertexOrder};
 
@@ -63,6 +64,12 @@ pub enum Edit<'a> {
         meshes: &'a [NewMesh<'a>],
         /// Values in the JSON, in this order.
         values: &'a [NewValue<'a>],
+    },
+    /// Meshes of a glTF or GLB get culling tables, added as by [`Append`](Self::Append). From then on
+    /// faces stay in their clusters, which are [`runs`](MeshEntry::runs), and none of these meshes can lose faces.
+    Cull {
+        /// The number of each mesh, which has none yet, and a table of its faces as they are now.
+        tables: &'a [(usize, &'a StoredCulling)],
     },
 }
 

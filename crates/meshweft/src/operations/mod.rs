@@ -3,7 +3,8 @@
 //!
 //! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
 //! document and keeps every other byte, `simplify` takes faces away from it, `inspect` counts it as it is, and
-//! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads; their reports are values that know their JSON.
+//! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads, `cull_build` adds tables that say which faces need not be
+//! drawn, and `cull_stats` counts what these leave out; their reports are values that know their JSON.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
 //! along a history such as [`collapse_history`] makes. [`StripedMesh`] and [`FacePlanes`] count what of a mesh is drawn, and
 //! what could be left out, from where it is seen.
@@ -19,6 +20,10 @@ mod compare;
 mod compress;
 mod counts;
 #[cfg(feature = "files")]
+mod cull;
+#[cfg(feature = "files")]
+mod facets;
+#[cfg(feature = "files")]
 mod improve;
 #[cfg(feature = "files")]
 mod improved;
@@ -33,6 +38,8 @@ mod optimize;
 #[cfg(feature = "files")]
 mod optimize_json;
 mod options;
+#[cfg(feature = "files")]
+mod plain_meshes;
 mod sequence_updates;
 mod shared_progress;
 #[cfg(feature = "files")]
@@ -50,6 +57,11 @@ pub use compress::{
     compress, decompress,
 };
 pub use counts::{Counts, USUAL_CACHES};
+#[cfg(feature = "files")]
+pub use cull::{
+    CullError, CullOptions, CullOutcome, CullReport, CullStatsOptions, CullStatsReport, CulledMesh,
+    CullingFigures, ViewSums, cull_build, cull_stats,
+};
 pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};
 #[cfg(feature = "files")]
 pub use inspect::{InspectReport, inspect};

@@ -26,7 +26,7 @@ fn append(document: &mut Document, meshes: &[NewMesh<'_>], values: &[NewValue<'_
 }
 
 /// Whether all of `old` is in `new` at its place; the lengths of buffers may have grown.
-fn is_kept(old: &Value, new: &Value, pointer: &str) -> bool {
+pub(crate) fn is_kept(old: &Value, new: &Value, pointer: &str) -> bool {
     match (old, new) {
         (Value::Array(old), Value::Array(new)) => {
             let pairs = old.iter().zip(new).enumerate();
@@ -52,7 +52,7 @@ fn is_kept(old: &Value, new: &Value, pointer: &str) -> bool {
 }
 
 /// The text without what was added: every byte of the old one comes, in its order.
-fn is_inserted(old: &[u8], new: &[u8]) -> bool {
+pub(crate) fn is_inserted(old: &[u8], new: &[u8]) -> bool {
     let mut left = old.iter().filter(|byte| !byte.is_ascii_digit()).peekable();
     for byte in new {
         left.next_if_eq(&byte);

@@ -73,6 +73,10 @@ impl Shape {
         columns: 1,
         rows: 1,
     };
+    pub(super) const VEC4: Self = Self {
+        columns: 1,
+        rows: 4,
+    };
 
     fn of_name(name: &str) -> Option<Self> {
         let (columns, rows) = match name {

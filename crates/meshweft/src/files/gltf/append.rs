@@ -1,6 +1,7 @@
 //! Meshes and values added to a file that was read: bytes at the end of a buffer, text at the ends of
 //! arrays and objects. Then the whole is looked at again.
 
+use super::additions::Additions;
 use super::container::Container;
 use super::growth::Growth;
 use super::new_meshes::{NewMeshes, SharedVertices};
@@ -36,8 +37,19 @@ impl GltfFile {
         for value in values {
             additions.written(value.pointer, value.json)?;
         }
+        self.grow(growth, bytes, additions)
+    }
 
+    /// Adds bytes and values, and looks at the whole again; on an error nothing is changed.
+    pub(super) fn grow(
+        &mut self,
+        growth: Growth,
+        bytes: Vec<u8>,
+        additions: Additions,
+    ) -> Result<Vec<Note>, Problem> {
         // The text, and the file around it.
+        let json = super::read_json(&self.container, &self.options.limits)?;
+        let root = Object::new(json.root(), String::new())?;
         let grows = !bytes.is_empty();
         let container = growth.container(&self.container, &root, &bytes, additions, Vec::new())?;
 

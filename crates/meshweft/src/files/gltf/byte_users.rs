@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::accessors::{Accessors, COMPRESSED_VIEW, UNSIGNED_BYTE, UNSIGNED_SHORT};
+use super::culling;
 use super::json::Value;
 use super::movable::{Draws, Movable};
 use super::object::Object;
@@ -92,13 +93,14 @@ impl ByteUsers {
             }
         }
 
-        // What is read by primitives that stay, animations, skins and instances.
+        // What is read by primitives that stay, animations, skins, instances and culling tables.
         for staying in &primitives.staying {
             for &number in &staying.accessors {
                 building.take_accessor(accessors, number as usize, &staying.number.pointer());
             }
         }
-        for (number, pointer) in other_users(root) {
+        let of_tables = culling::accessors_of(root);
+        for (number, pointer) in other_users(root).into_iter().chain(of_tables) {
             building.take_accessor(accessors, number, &pointer);
         }
 

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::buffers::Buffers;
 use super::byte_users::{ByteUsers, UsedAs};
+use super::culling::Tables;
 use super::groups::{group_numbers, vertex_obstacle};
 use super::movable::{Draws, IndexList, Movable, PrimitiveNumber};
 use super::object::malformed;
@@ -51,6 +52,8 @@ pub(super) struct Entries {
     pub(super) first_primitives: Vec<PrimitiveNumber>,
     /// The other primitives with the faces of a mesh, each with the first.
     pub(super) repeated: BTreeMap<PrimitiveNumber, PrimitiveNumber>,
+    /// The clusters in which faces stay.
+    pub(super) tables: Tables,
     /// The largest vertex number in each mesh, if it has faces.
     largest_vertex: Vec<Option<u32>>,
     /// For each group whose vertices stay: why, and the first primitive that this was found at.
@@ -92,6 +95,13 @@ impl Entries {
                     }
                 };
                 drawn_by[mesh].push(primitive.number.mesh);
+
+                let entry = &mut entries.meshes[mesh];
+                let runs = &entry.runs;
+                let tables = &mut entries.tables;
+                if let Some(runs) = tables.add(mesh, primitive.culling(), runs, buffers) {
+                    entry.runs = runs;
+                }
 
                 if primitive.draws == Draws::FacesInOrder {
                     entries.meshes[mesh].faces_movable = false;

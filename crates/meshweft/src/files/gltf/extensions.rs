@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 
 use super::accessors::Accessors;
+use super::culling;
 use super::json::Value;
 use super::movable::IndexList;
 use super::object::Object;
@@ -154,6 +155,9 @@ pub(super) fn of_primitive(
                 );
             }
             name if accessors.is_order_free(name) => {}
+            // Looked at where the faces are known.
+            culling::NAME if primitive.number("mode")?.unwrap_or(4) == 4 => {}
+            culling::NAME => obstacles.keep_primitive(format!("{name} is of lists of triangles")),
             name if is_unknown_own(name, accessors) => keep_for_unknown_own(name, obstacles),
             // Property textures, and property attributes, which are vertex data.
             "EXT_structural_metadata" if names_only_properties(&extensions)? => {}

@@ -15,6 +15,8 @@
 //! Strips are made lists before all else, if that is asked for: [`strips`].
 //! [`mod@unlisted`] names what is neither in the meshes nor in their attributes.
 //! [`companions`] are the files that it names beside these; [`neighbours`] asks who else names a buffer.
+//! [`culling`] reads the tables that say which faces need not be drawn, [`new_tables`] adds them, [`sides`] finds which sides
+//! are seen.
 //! What is left out goes through [`select`]: [`leaving`] moves up the records that stay, [`byte_map`] says
 //! where the rest then stands, [`stated_bounds`] has the smallest and largest values.
 //! What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the bytes and
@@ -43,6 +45,7 @@
 //! | `Entries` | the meshes that are offered, each with the records of its corners |
 //! | `GroupObstacles` | why the vertices of each group stay, while the entries are made |
 //! | `Missing` | why a buffer has no bytes |
+//! | `Culling` | the culling table of a primitive |
 //! | `View` | all that was found in the JSON (no `bufferView`) |
 //! | `Growth` | the buffer that new bytes go to |
 //! | `Additions` | new values, each with the way to its place |
@@ -59,6 +62,7 @@ mod byte_map;
 mod byte_users;
 mod companions;
 mod container;
+mod culling;
 mod elements;
 mod entries;
 mod extensions;
@@ -70,6 +74,7 @@ mod movable;
 mod neighbours;
 mod new_attributes;
 mod new_meshes;
+mod new_tables;
 mod notes;
 mod object;
 mod objects;
@@ -79,6 +84,7 @@ mod patch;
 mod primitives;
 mod scene;
 mod select;
+mod sides;
 mod sparse;
 mod stated_bounds;
 mod strided_records;
@@ -102,6 +108,7 @@ use super::note::Note;
 use super::options::ReadOptions;
 use super::placing::{Beside, Placed};
 use super::select::SelectPlan;
+use super::stored_culling::{SeenSides, StoredCulling};
 use super::surroundings::Surroundings;
 use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
@@ -415,6 +422,19 @@ impl Content for GltfFile {
         values: &[NewValue<'_>],
     ) -> Result<Vec<Note>, Problem> {
         GltfFile::append(self, meshes, values)
+    }
+
+    fn culling(&self, mesh: usize) -> Option<StoredCulling> {
+        let table = self.view.entries.tables.of(mesh)?;
+        Some(table.stored(&self.buffers))
+    }
+
+    fn seen_sides(&self) -> Vec<Result<SeenSides, &'static str>> {
+        self.found_sides()
+    }
+
+    fn cull(&mut self, tables: &[(usize, &StoredCulling)]) -> Result<Vec<Note>, Problem> {
+        GltfFile::cull(self, tables)
     }
 
     fn beside(&self) -> Vec<Beside<'_>> {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::accessors::Accessor;
+use super::culling::Culling;
 use super::obstacles::VertexObstacle;
 use super::sparse::Sparse;
 use super::strided_records::StridedRecords;
@@ -82,6 +83,8 @@ pub(super) struct Uncommon {
     pub(super) sparse: Vec<Sparse>,
     /// Accessors whose sparse elements cannot be moved.
     pub(super) unmoved_sparse: Vec<usize>,
+    /// Clusters in which its faces must stay.
+    pub(super) culling: Option<Culling>,
     /// Why the vertices must stay.
     pub(super) vertex_obstacle: Option<VertexObstacle>,
 }
@@ -90,6 +93,7 @@ impl Uncommon {
     /// Whether there is nothing uncommon.
     pub(super) fn is_empty(&self) -> bool {
         self.outline.is_none()
+            && self.culling.is_none()
             && self.vertex_obstacle.is_none()
             && self.sparse.is_empty()
             && self.unmoved_sparse.is_empty()
@@ -99,6 +103,10 @@ impl Uncommon {
 impl Movable {
     pub(super) fn outline(&self) -> Option<&IndexList> {
         self.uncommon.as_ref()?.outline.as_ref()
+    }
+
+    pub(super) fn culling(&self) -> Option<&Culling> {
+        self.uncommon.as_ref()?.culling.as_ref()
     }
 
     pub(super) fn sparse(&self) -> &[Sparse] {

@@ -151,7 +151,7 @@ impl<'a> NewMeshes<'a> {
         let mut sets = vec![serde_json::Map::new(); 1 + named.len()];
         for attribute in attributes {
             let mut accessor = accessor_of(attribute)?;
-            let view = self.view(&accessor.bytes, VERTICES, accessor.stride);
+            let view = self.view(&accessor.bytes, Some(VERTICES), accessor.stride);
             accessor.json["bufferView"] = view.into();
             let set = attribute.info.morph_target.map_or(0, |t| 1 + t as usize);
             let number = self.accessor(&accessor.json);
@@ -186,7 +186,7 @@ impl<'a> NewMeshes<'a> {
                 .collect(),
             false => corners.iter().flat_map(|c| c.to_le_bytes()).collect(),
         };
-        let view = self.view(&bytes, INDICES, None);
+        let view = self.view(&bytes, Some(INDICES), None);
         self.accessor(&json!({
             "bufferView": view,
             "componentType": if is_short { UNSIGNED_SHORT } else { UNSIGNED_INT },
@@ -195,15 +195,39 @@ impl<'a> NewMeshes<'a> {
         }))
     }
 
+    /// Adds numbers that are neither vertices nor their indices; the number of their accessor.
+    pub(super) fn numbers(
+        &mut self,
+        bytes: &[u8],
+        component_type: usize,
+        count: usize,
+        kind: &str,
+    ) -> usize {
+        let view = self.view(bytes, None, None);
+        self.accessor(&json!({
+            "bufferView": view,
+            "componentType": component_type,
+            "count": count,
+            "type": kind,
+        }))
+    }
+
+    /// Adds a value that is not a mesh.
+    pub(super) fn value<'b>(&mut self, path: impl IntoIterator<Item = &'b str>, json: String) {
+        self.additions.value(path, json);
+    }
+
     /// Adds bytes as a buffer view; its number.
-    fn view(&mut self, bytes: &[u8], target: u32, stride: Option<usize>) -> usize {
+    fn view(&mut self, bytes: &[u8], target: Option<u32>, stride: Option<usize>) -> usize {
         self.bytes.extend_from_slice(bytes);
         let mut view = json!({
             "buffer": self.buffer,
             "byteOffset": self.start + self.bytes.len() - bytes.len(),
             "byteLength": bytes.len(),
-            "target": target,
         });
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
         if let Some(stride) = stride {
             view["byteStride"] = stride.into();
         }

@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 
 use super::accessors::{Accessor, Accessors};
+use super::culling::{self, Culling, KnownStarts};
 use super::extensions::{self, OwnExtensions};
 use super::json::Value;
 use super::movable::{Draws, IndexList, Movable, Primitive, PrimitiveNumber, Staying, Uncommon};
@@ -141,6 +142,7 @@ fn each<'a>(
 ) -> Result<(), Problem> {
     let own = OwnExtensions::new(root, accessors);
     let transparent = transparent_materials(root);
+    let known_starts = KnownStarts::default();
     // JSON is shorter than 4 GiB, so all numbers fit.
     for (mesh_number, mesh) in (0_u32..).zip(root.objects("meshes")?) {
         let mesh = mesh?;
@@ -156,6 +158,7 @@ fn each<'a>(
                 },
                 primitive: primitive?,
                 transparent: &transparent,
+                known_starts: &known_starts,
                 accessors,
                 options,
             };
@@ -197,6 +200,7 @@ struct PrimitiveReader<'a> {
     primitive: Object<'a>,
     /// Whether each material of the file is transparent.
     transparent: &'a [bool],
+    known_starts: &'a KnownStarts,
     accessors: &'a Accessors<'a>,
     options: &'a ReadOptions,
 }
@@ -237,6 +241,17 @@ impl PrimitiveReader<'_> {
             obstacles.keep_primitive(why);
         }
 
+        let culling = Culling::of(
+            &self.primitive,
+            self.accessors,
+            corners / 3,
+            self.known_starts,
+        );
+        let culling = culling.unwrap_or_else(|why| {
+            obstacles.keep_primitive(format!("its {} is not sound: {why}", culling::NAME));
+            None
+        });
+
         self.refuse_unknown(&obstacles)?;
         if let Some(why) = obstacles.of_primitive {
             return Ok(self.staying(why));
@@ -247,6 +262,7 @@ impl PrimitiveReader<'_> {
             sparse: data.sparse,
             unmoved_sparse: data.unmoved_sparse,
             outline,
+            culling,
             vertex_obstacle: obstacles.of_vertices,
         };
         let draws = match self.is_transparent() && !self.options.reorder_transparent {

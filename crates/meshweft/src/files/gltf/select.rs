@@ -9,6 +9,7 @@ use super::buffers::Source;
 use super::byte_map::{ByteMap, set};
 use super::byte_users::ByteUsers;
 use super::container::{BinaryLength, Container};
+use super::culling;
 use super::entries::{Corners, corner_records, unsound_list};
 use super::groups::{self, group_numbers, vertex_obstacle};
 use super::leaving::Leaving;
@@ -175,7 +176,7 @@ impl GltfFile {
             }
         }
 
-        // An accessor that reads the faces of all primitives in one piece.
+        // A culling table, or an accessor that reads the faces of all primitives in one piece.
         let planned =
             plan.meshes
                 .iter()
@@ -187,6 +188,15 @@ impl GltfFile {
         let meshes = root.array("meshes")?;
         for (primitive, _) in grouped {
             let is_planned = corner_records(primitive).is_some_and(|r| planned.contains(&r));
+            if is_planned && primitive.culling().is_some() {
+                let text = format!(
+                    "no face can be left out: {} has ranges of them. Start from the file that it was made of, \
+                     or remove that extension first",
+                    culling::NAME
+                );
+                let place = Place::Json(primitive.number.pointer());
+                return Err(FileErrorKind::unsupported(text).at(place));
+            }
             let mesh = meshes
                 .get(primitive.number.mesh as usize)
                 .filter(|_| is_planned);

@@ -1,0 +1,161 @@
+//! `cull build`: files with culling tables.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::Result;
+use clap::Args;
+use meshweft::files::{Document, Format};
+use meshweft::operations::{self, CullOptions, CullOutcome, CullReport};
+
+use crate::run::arguments::{Reading, Run};
+use crate::run::jobs::{Job, Jobs};
+use crate::run::output::Report;
+use crate::run::watch::Watch;
+use crate::run::{self, Outcome, output, write};
+use crate::usage::Usage;
+
+#[derive(Debug, Args)]
+pub(super) struct Build {
+    /// Files, folders with files, or patterns such as 'assets/**/*.glb'
+    ///
+    /// .gltf, .glb, .vrm, .obj, .ply, .off, .stl, .wrl or .vrml, optionally followed by .gz.
+    #[arg(required = true, value_name = "IN")]
+    inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    run: Run,
+    /// What another draw costs, in transformed vertices: with more, clusters are fewer and larger
+    #[arg(long, value_name = "COST", display_order = 1, default_value_t = CullOptions::default().clusters.draw_cost, value_parser = cost)]
+    draw_cost: f32,
+    /// Of files that are no .gltf or .glb, leave out whatever is not the name of a mesh, a position or a face; a file that
+    /// has more is refused without it, and the message names what
+    #[arg(long, display_order = 2)]
+    drop_attributes: bool,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    report: Report,
+}
+
+/// A finite number from 0 on.
+fn cost(text: &str) -> Result<f32, String> {
+    let cost: Option<f32> = text.parse().ok();
+    cost.filter(|cost| (0.0..f32::INFINITY).contains(cost))
+        .ok_or_else(|| "a number from 0 on".to_owned())
+}
+
+/// Adds tables to each file.
+pub(super) fn run(arguments: &Build) -> Result<()> {
+    let mut options = CullOptions::default();
+    options.drop_attributes = arguments.drop_attributes;
+    options.clusters.draw_cost = arguments.draw_cost;
+    let jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
+    let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
+    let work = |job: &Job| build(job, &jobs, &options, shows_bar, arguments);
+    run::over_files(
+        "cull build",
+        &jobs.list,
+        &arguments.run,
+        &arguments.report,
+        work,
+    )
+}
+
+/// Adds tables to a file, and writes it.
+fn build(
+    job: &Job,
+    jobs: &Jobs,
+    options: &CullOptions,
+    shows_bar: bool,
+    arguments: &Build,
+) -> Result<Outcome> {
+    let start = Instant::now();
+    let mut document = Document::open(&job.input, arguments.reading.options(&jobs.shared_buffers))?;
+    let becomes_glb = !matches!(document.format(), Format::Gltf | Format::Glb);
+    if becomes_glb && !arguments.run.dry_run && Format::of_path(&job.target) != Some(Format::Glb) {
+        let text = format!(
+            "{}: a .glb is made of it: give the output that ending, not {}",
+            job.input.display(),
+            job.target.display()
+        );
+        return Err(Usage(text).into());
+    }
+
+    let watch = Watch::new(None, shows_bar);
+    let mut report = operations::cull_build(&mut document, options, &watch)?;
+    watch.finish();
+
+    let to = (&arguments.run, &jobs.outputs);
+    let written = write::write_with_side_file(job, &document, to, report.is_changed(), None)?;
+    let mut renamed = Vec::new();
+    if let Some(written) = written {
+        report.set_output(&job.target, written.bytes);
+        report.add_written(&written);
+        renamed = write::renamed_lines(job, &written);
+    }
+    report.seconds = Some(start.elapsed().as_secs_f64());
+
+    Ok(Outcome {
+        json: report.to_json(),
+        total: report.total_to_json(),
+        text: text(&report),
+        notes: [output::note_lines(&report.file, &report.notes), renamed].concat(),
+    })
+}
+
+/// A line for the file, one for its clusters, one for each reason why meshes have none, one for where it was written.
+fn text(report: &CullReport) -> String {
+    let [meshes, faces, clusters] = report.count(|it| *it == CullOutcome::Clusters);
+    let mut text = format!(
+        "{}\n  {} with {faces} faces in {clusters} clusters",
+        report.file.display(),
+        counted(meshes, "mesh", "meshes")
+    );
+    for line in reasons(report) {
+        text += &format!("\n  {line}");
+    }
+    if !report.lost.is_empty() {
+        text += &format!("\n  left out: {}", report.lost.join(", "));
+    }
+    text += &match (report.is_changed(), &report.output) {
+        (true, Some(output)) => format!("\n  written to {}", output.display()),
+        (false, Some(output)) => format!("\n  no table: copied to {}", output.display()),
+        (true, None) => "\n  not written: dry run".to_owned(),
+        (false, None) => "\n  no table: left as it is".to_owned(),
+    };
+    if report.copied > 0 {
+        let files = counted(report.copied, "file", "files");
+        text += &format!("\n  copied {files} that it names");
+    }
+    text
+}
+
+/// Each reason why meshes are always drawn or have no table, with the first of them.
+fn reasons(report: &CullReport) -> Vec<String> {
+    let mut firsts: BTreeMap<(bool, &str), (&str, usize)> = BTreeMap::new();
+    for mesh in &report.meshes {
+        if let Some(why) = mesh.outcome.reason() {
+            let is_left = matches!(mesh.outcome, CullOutcome::Left(_));
+            let first = firsts.entry((is_left, why)).or_insert((&mesh.name, 0));
+            first.1 += 1;
+        }
+    }
+    let line = |((is_left, why), (name, count)): ((bool, &str), (&str, usize))| {
+        let what = if is_left { "no table" } else { "always drawn" };
+        let more = match count {
+            1 => String::new(),
+            _ => format!(" and {} more", count - 1),
+        };
+        format!("{what}: {name}{more}: {why}")
+    };
+    firsts.into_iter().map(line).collect()
+}
+
+/// A number of things.
+pub(super) fn counted(count: usize, one: &str, several: &str) -> String {
+    match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {several}"),
+    }
+}

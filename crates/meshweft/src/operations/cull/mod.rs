@@ -1,0 +1,19 @@
+//! Which faces of a document need not be drawn, and what that saves.
+//!
+//! Read `build` for how a document gets its tables, `created` for what becomes of one that is no glTF, `stats` for what
+//! tables leave out.
+
+mod build;
+mod created;
+mod options;
+mod report;
+mod stats;
+mod stats_report;
+mod views;
+
+pub use build::cull_build;
+pub use options::{CullError, CullOptions, CullStatsOptions};
+pub use report::{CullOutcome, CullReport, CulledMesh};
+pub use stats::cull_stats;
+pub use stats_report::{CullStatsReport, CullingFigures};
+pub use views::ViewSums;

@@ -1,0 +1,106 @@
+//! What is asked for, and why a document gets no tables.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use crate::culling::ViewClusters;
+use crate::files::FileError;
+
+/// How a document gets culling tables.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct CullOptions {
+    /// How clusters are made.
+    pub clusters: ViewClusters,
+    /// Of a document that is no glTF: leave out whatever is not the name of a mesh, a position or a face.
+    pub drop_attributes: bool,
+}
+
+/// From where a document is looked at.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct CullStatsOptions {
+    /// How many directions at each distance.
+    pub eyes: usize,
+    /// Distances from the center of each mesh, in radii of the ball around it; infinity is an orthographic view.
+    pub distances: Vec<f64>,
+}
+
+impl Default for CullStatsOptions {
+    /// 40 directions at 1.5, 2, 4 and 10 radii, and orthographic.
+    fn default() -> Self {
+        Self {
+            eyes: 40,
+            distances: vec![1.5, 2.0, 4.0, 10.0, f64::INFINITY],
+        }
+    }
+}
+
+/// Why a document gets no culling tables.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum CullError {
+    /// A mesh has one already.
+    HasTable {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
+    /// A GLB of its positions and faces would lose what the document also has.
+    Lost {
+        /// The file.
+        file: PathBuf,
+        /// What that is.
+        what: Vec<String>,
+    },
+    /// A GLB would lose faces that were not read.
+    UnreadFaces {
+        /// The file.
+        file: PathBuf,
+        /// Whose.
+        mesh: String,
+    },
+    /// The document has no faces.
+    NoFaces {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The document cannot be read or changed.
+    File(FileError),
+}
+
+impl fmt::Display for CullError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::HasTable { file, mesh } => write!(
+                f,
+                "{}: {mesh} has a culling table already (MESHWEFT_culling): start from the file that it was made of",
+                file.display()
+            ),
+            Self::Lost { file, what } => write!(
+                f,
+                "{}: a GLB is made of the positions and faces, and the file also has {}. Leave that out with \
+                 drop_attributes, or convert the file to .glb first",
+                file.display(),
+                what.join(", ")
+            ),
+            Self::UnreadFaces { file, mesh } => write!(
+                f,
+                "{}: {mesh} has faces that cannot be read, so no GLB can be made of the file",
+                file.display()
+            ),
+            Self::NoFaces { file } => write!(f, "{}: there are no faces", file.display()),
+            Self::File(error) => error.fmt(f),
+        }
+    }
+}
+
+// No `source`: the text above already says it.
+impl std::error::Error for CullError {}
+
+impl From<FileError> for CullError {
+    fn from(error: FileError) -> Self {
+        Self::File(error)
+    }
+}

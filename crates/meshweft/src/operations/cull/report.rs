@@ -1,0 +1,182 @@
+//! What became of the meshes of a document.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::options::CullOptions;
+use crate::files::{MeshEntry, Note, Written};
+use crate::operations::json;
+use crate::permutation::FaceOrder;
+
+/// What [`cull_build`](super::cull_build) did. The caller may add where it went, its size there and the time it took.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct CullReport {
+    /// The file that was read.
+    pub file: PathBuf,
+    /// The file that was written, if any: set by the caller.
+    pub output: Option<PathBuf>,
+    /// Size of the file and of the buffers beside it that were read.
+    pub bytes_before: u64,
+    /// The same of what was written.
+    pub bytes_after: Option<u64>,
+    /// How many files that it names were copied along: set by the caller.
+    pub copied: usize,
+    /// How long it took: set by the caller, who has a clock.
+    pub seconds: Option<f64>,
+    /// What was asked for.
+    pub options: CullOptions,
+    /// What the GLB does not have that was made of a file of another format.
+    pub lost: Vec<String>,
+    /// Each mesh.
+    pub meshes: Vec<CulledMesh>,
+    /// Whether the caller stopped it before all meshes had tables.
+    pub is_stopped: bool,
+    /// What the reader of the file leaves as it is, and why.
+    pub notes: Vec<Note>,
+}
+
+/// A mesh, and what became of it.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct CulledMesh {
+    /// What the file calls it.
+    pub name: String,
+    /// How many faces it has.
+    pub face_count: usize,
+    /// How many clusters its table has; 0 without one.
+    pub clusters: usize,
+    /// The order that its face records were put in.
+    pub faces: FaceOrder,
+    /// What became of it.
+    pub outcome: CullOutcome,
+}
+
+/// What became of a mesh.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CullOutcome {
+    /// Its faces are in clusters, each drawn from where it may be seen.
+    Clusters,
+    /// Its faces keep their order and are always drawn: why.
+    AlwaysDrawn(&'static str),
+    /// It has no table: why.
+    Left(String),
+}
+
+impl CullOutcome {
+    /// Why its faces are not in clusters, if so.
+    #[must_use]
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Clusters => None,
+            Self::AlwaysDrawn(why) => Some(why),
+            Self::Left(why) => Some(why),
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Clusters => "clusters",
+            Self::AlwaysDrawn(_) => "always_drawn",
+            Self::Left(_) => "left",
+        }
+    }
+}
+
+impl CulledMesh {
+    /// One that stays as it is.
+    pub(super) fn left(entry: &MeshEntry, why: String) -> Self {
+        Self {
+            name: entry.name.clone(),
+            face_count: entry.mesh.face_count(),
+            clusters: 0,
+            faces: FaceOrder::identity(entry.record_count()),
+            outcome: CullOutcome::Left(why),
+        }
+    }
+
+    fn json(&self) -> Value {
+        json!({
+            "name": self.name,
+            "faces": self.face_count,
+            "clusters": self.clusters,
+            "outcome": self.outcome.name(),
+            "reason": self.outcome.reason(),
+        })
+    }
+}
+
+impl CullReport {
+    /// Whether any mesh has a table.
+    #[must_use]
+    pub fn is_changed(&self) -> bool {
+        self.meshes.iter().any(|mesh| mesh.clusters > 0)
+    }
+
+    /// How many meshes, faces and clusters there are with this in common.
+    #[must_use]
+    pub fn count(&self, which: impl Fn(&CullOutcome) -> bool) -> [usize; 3] {
+        let meshes = self.meshes.iter().filter(|mesh| which(&mesh.outcome));
+        meshes.fold([0; 3], |[meshes, faces, clusters], mesh| {
+            [
+                meshes + 1,
+                faces + mesh.face_count,
+                clusters + mesh.clusters,
+            ]
+        })
+    }
+
+    /// Adds where the document went and what it takes there.
+    pub fn set_output(&mut self, output: &Path, bytes: u64) {
+        self.output = Some(output.to_owned());
+        self.bytes_after = Some(bytes);
+    }
+
+    /// Adds what was copied along, and what there is to say about writing.
+    pub fn add_written(&mut self, written: &Written) {
+        self.copied += written.copied.len();
+        self.notes.extend(written.notes.iter().cloned());
+    }
+
+    /// The report as one line of JSON.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let mut report = json::file_head(
+            "cull build",
+            [Some(&self.file), self.output.as_deref()],
+            (self.bytes_before, self.bytes_after),
+            self.copied,
+            self.seconds,
+        );
+        report.insert("draw_cost".into(), json!(self.options.clusters.draw_cost));
+        report.insert("stopped".into(), json!(self.is_stopped));
+        report.insert("lost".into(), json!(self.lost));
+        report.insert("meshes".into(), Value::Null);
+        report.insert("total".into(), self.total());
+        report.insert("notes".into(), json::notes(&self.notes));
+        json::with_list(&report, "meshes", self.meshes.iter().map(CulledMesh::json))
+    }
+
+    /// The sums over all meshes, as one line of JSON: the member `total` of the report.
+    #[must_use]
+    pub fn total_to_json(&self) -> String {
+        self.total().to_string()
+    }
+
+    fn total(&self) -> Value {
+        let [_, faces, clusters] = self.count(|_| true);
+        let of = |which: fn(&CullOutcome) -> bool| {
+            let [meshes, faces, _] = self.count(which);
+            json!({"meshes": meshes, "faces": faces})
+        };
+        json!({
+            "faces": faces,
+            "clusters": clusters,
+            "in_clusters": of(|it| matches!(it, CullOutcome::Clusters)),
+            "always_drawn": of(|it| matches!(it, CullOutcome::AlwaysDrawn(_))),
+            "left": of(|it| matches!(it, CullOutcome::Left(_))),
+        })
+    }
+}
