@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use meshweft::files::{Document, ReadOptions};
 use meshweft::operations::{self, CullStatsOptions, CullStatsReport, CullingFigures, ViewSums};
@@ -39,7 +39,7 @@ pub(super) struct Stats {
 /// Distances of a plot, evenly on its scale: 1.05 to 100 radii.
 const PLOTTED: usize = 24;
 
-/// Prints what the tables of a file leave out.
+/// Prints what the tables of a file leave out; fails if that is anything that is seen.
 pub(super) fn run(arguments: &Stats) -> Result<()> {
     if arguments.eyes == 0 {
         return Err(Usage("--eyes 0: nothing is seen from nowhere".into()).into());
@@ -64,7 +64,13 @@ pub(super) fn run(arguments: &Stats) -> Result<()> {
         let report = operations::cull_stats(&document, &options)?;
         fs::write(path, svg(&report)).with_context(|| path.display().to_string())?;
     }
-    Ok(())
+    match report.is_true() {
+        true => Ok(()),
+        false => bail!(
+            "{}: a culling table leaves out faces that are seen: build one from the source",
+            report.file.display()
+        ),
+    }
 }
 
 /// The figures of all meshes for each distance, and a line for each of several meshes.

@@ -120,6 +120,31 @@ fn a_table_is_built_counted_and_kept() {
 }
 
 #[test]
+fn a_table_of_other_faces_is_found_out() {
+    let folder = Folder::new("cull-wrong");
+    folder.write("ball.off", ball_off());
+    let run = folder.run(&["cull", "build", "ball.off", "-o", "ball.glb"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    // The planes are at the end: each looks the other way.
+    let mut bytes = folder.read("ball.glb");
+    let end = bytes.len();
+    for place in (end - 256..end).step_by(4) {
+        bytes[place + 3] ^= 0x80;
+    }
+    folder.write("wrong.glb", bytes);
+    let run = folder.run(&["cull", "stats", "wrong.glb"]);
+    assert_eq!(run.code(), 1);
+    let expected = "a culling table leaves out faces that are seen";
+    assert!(run.err().contains(expected), "{}", run.err());
+    assert!(
+        run.err()
+            .contains("times a face that faces the eye is left out"),
+        "{}",
+        run.err()
+    );
+}
+
+#[test]
 fn what_would_be_lost_is_named() {
     let folder = Folder::new("cull-lost");
     folder.write("grid.obj", grid_obj() + "vt 0 0\nf 1/1 2/1 23/1\n");
