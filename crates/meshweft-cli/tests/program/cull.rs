@@ -174,6 +174,23 @@ fn what_would_be_lost_is_named() {
     assert_eq!(report["total"]["in_clusters"]["faces"], 801);
     assert_eq!(report["meshes"][0]["outcome"], "clusters");
 
+    // Draws that cost more are fewer.
+    let clusters = |cost: &str| {
+        let flags = [
+            "--drop-attributes",
+            "--dry-run",
+            "--draw-cost",
+            cost,
+            "--json",
+        ];
+        let arguments = [&["cull", "build", "grid.obj"], &flags[..]].concat();
+        let report = folder.run(&arguments).json();
+        assert_eq!(report["draw_cost"], cost.parse::<f64>().unwrap());
+        report["total"]["clusters"].as_u64().unwrap()
+    };
+    assert!(clusters("0") > clusters("1000"));
+    assert_eq!(build(&["--draw-cost", "-1"]).code(), 2);
+
     // Where it does not go, and what is not there.
     let run = folder.run(&[
         "cull",

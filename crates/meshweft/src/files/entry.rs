@@ -22,7 +22,7 @@ pub struct MeshEntry {
     /// Where each polygon's faces start in `mesh` (one more entry than records), or `None` where
     /// each record is one triangle.
     pub polygons: Option<Vec<u32>>,
-    /// The first record of each run of one material, group, …: rising, the first 0, and empty if
+    /// The first record of each run of one material, group, cluster of a culling table, …: rising, the first 0, and empty if
     /// there are no records. A record stays within its run.
     pub runs: Vec<u32>,
     /// Meshes with the same number share their vertices: a vertex order for one renumbers all.

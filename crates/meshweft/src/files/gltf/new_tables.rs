@@ -1,5 +1,7 @@
 //! Culling tables of meshes that are there, as bytes of a buffer and values of the JSON.
 
+use std::collections::BTreeMap;
+
 use serde_json::json;
 
 use super::GltfFile;
@@ -24,6 +26,10 @@ impl GltfFile {
         let growth = Growth::new(&root, &self.container, &self.buffers);
         let mut new = NewMeshes::new(&root, growth.buffer, growth.start)?;
         let entries = &self.view.entries;
+        let mut repeated: BTreeMap<PrimitiveNumber, Vec<PrimitiveNumber>> = BTreeMap::new();
+        for (&number, &first) in &entries.repeated {
+            repeated.entry(first).or_default().push(number);
+        }
         for &(mesh, table) in tables {
             let first = entries.first_primitives[mesh];
             let place = || Place::Json(first.pointer());
@@ -33,8 +39,7 @@ impl GltfFile {
                 let text = "it has a culling table already";
                 return Err(FileErrorKind::unsupported(text).at(place()));
             }
-            let repeated = entries.repeated.iter().filter(|&(_, &of)| of == first);
-            let others = repeated.map(|(&number, _)| number);
+            let others = repeated.get(&first).into_iter().flatten().copied();
             add(table, [first].into_iter().chain(others), &mut new);
         }
         let used = root.array("extensionsUsed")?;

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
+use std::rc::Rc;
 
 use super::created::created;
 use super::options::{CullError, CullOptions};
@@ -80,10 +81,7 @@ pub fn cull_build(
     let mut done = 0;
     for (number, (entry, sides)) in document.meshes().iter().zip(sides).enumerate() {
         let mut mesh = CulledMesh::left(entry, String::new());
-        let positions = match &shared {
-            Some(shared) => Some(Cow::Borrowed(&*shared[number])),
-            None => document.positions(number)?.map(Cow::Owned),
-        };
+        let positions = positions_of(document, shared.as_deref(), number)?;
         let clusters = (!is_stopped).then_some(&options.clusters);
         match clustered(entry, positions.as_deref(), sides, clusters) {
             Err(why) => mesh.outcome = CullOutcome::Left(why),
@@ -194,6 +192,18 @@ fn clustered(
             outcome: CullOutcome::Clusters,
         }),
         Err(_) => Err("its positions are no numbers, or too large".to_owned()),
+    }
+}
+
+/// The positions of a mesh; `shared` are those of all meshes, if all have some.
+pub(super) fn positions_of<'a>(
+    document: &Document,
+    shared: Option<&'a [Rc<[[f32; 3]]>]>,
+    mesh: usize,
+) -> Result<Option<Cow<'a, [[f32; 3]]>>, FileError> {
+    match shared {
+        Some(shared) => Ok(Some(Cow::Borrowed(&*shared[mesh]))),
+        None => Ok(document.positions(mesh)?.map(Cow::Owned)),
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the tables of a document leave out, from many sides.
 
-use super::build::compact;
+use super::build::{compact, positions_of};
 use super::options::CullStatsOptions;
 use super::stats_report::{CullStatsReport, CullingFigures};
 use super::views::{CACHE, ViewSums, look_at};
@@ -32,9 +32,13 @@ pub fn cull_stats(
         total: CullingFigures::none("all meshes", options.distances.len()),
         notes: document.notes().to_vec(),
     };
+    let shared = document.all_positions()?;
     for (number, entry) in document.meshes().iter().enumerate() {
         let note = |text: String| Note::new(Place::File, format!("{}: {text}", entry.name));
-        let (table, positions) = match (document.culling(number), document.positions(number)?) {
+        let (table, positions) = match (
+            document.culling(number),
+            positions_of(document, shared.as_deref(), number)?,
+        ) {
             (Some(table), Some(positions)) => (table, positions),
             _ => {
                 report.without += 1;
