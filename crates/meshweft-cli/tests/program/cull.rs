@@ -175,6 +175,7 @@ fn what_would_be_lost_is_named() {
     assert_eq!(report["meshes"][0]["outcome"], "clusters");
 
     // Draws that cost more are fewer.
+    folder.write("ball.off", ball_off());
     let clusters = |cost: &str| {
         let flags = [
             "--drop-attributes",
@@ -183,7 +184,7 @@ fn what_would_be_lost_is_named() {
             cost,
             "--json",
         ];
-        let arguments = [&["cull", "build", "grid.obj"], &flags[..]].concat();
+        let arguments = [&["cull", "build", "ball.off"], &flags[..]].concat();
         let report = folder.run(&arguments).json();
         assert_eq!(report["draw_cost"], cost.parse::<f64>().unwrap());
         report["total"]["clusters"].as_u64().unwrap()
