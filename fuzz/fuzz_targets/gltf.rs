@@ -83,7 +83,9 @@ fn reversed_in_runs(entry: &MeshEntry) -> FaceOrder {
     let ends = entry.runs.iter().copied().skip(1).chain([end]);
     let runs = entry.runs.iter().zip(ends);
     let order: Vec<u32> = runs.flat_map(|(&start, end)| (start..end).rev()).collect();
-    Permutation::new(order).expect("every record comes once").into()
+    Permutation::new(order)
+        .expect("every record comes once")
+        .into()
 }
 
 /// Whatever table a mesh has, looking at it does no harm.

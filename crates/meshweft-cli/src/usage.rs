@@ -4,7 +4,7 @@ use std::fmt;
 
 use anyhow::Error;
 use meshweft::files::{FileError, FileErrorKind};
-use meshweft::operations::CompressError;
+use meshweft::operations::{CompressError, CullError};
 
 /// What the command line asks for cannot be done; exit code 2.
 #[derive(Debug)]
@@ -24,6 +24,9 @@ impl std::error::Error for Usage {}
 /// is named here.
 pub(crate) fn message(error: &Error) -> String {
     let text = format!("{error:#}");
+    if let Some(CullError::Lost { .. }) = error.downcast_ref() {
+        return text.replace("drop_attributes", "--drop-attributes");
+    }
     match error.downcast_ref() {
         Some(CompressError::Attributes { .. }) => {
             return text.replace("drop_attributes", "--drop-attributes");

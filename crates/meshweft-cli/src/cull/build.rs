@@ -25,11 +25,11 @@ pub(super) struct Build {
     inputs: Vec<PathBuf>,
     #[command(flatten)]
     run: Run,
-    /// What another draw costs, in transformed vertices: with more, clusters are fewer and larger
+    /// Cost of one more visible cluster, in transformed vertices: with more, clusters are fewer and larger
     #[arg(long, value_name = "COST", display_order = 1, default_value_t = CullOptions::default().clusters.draw_cost, value_parser = cost)]
     draw_cost: f32,
-    /// Of files that are no .gltf or .glb, leave out whatever is not the name of a mesh, a position or a face; a file that
-    /// has more is refused without it, and the message names what
+    /// For formats other than .gltf and .glb: keep only names of meshes, positions and faces; without this, a file that has
+    /// more is refused, and the message lists it
     #[arg(long, display_order = 2)]
     drop_attributes: bool,
     #[command(flatten)]

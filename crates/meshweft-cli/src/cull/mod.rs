@@ -20,7 +20,7 @@ enum Verb {
     /// Put faces in clusters that are seen from the same sides, and add a table that says from where
     ///
     /// Any viewer shows the file as before. A renderer that reads the table draws, for each eye, the clusters that it may
-    /// see, by few calls; no face that faces the eye is left out. A .gltf or .glb keeps all other bytes; the table is the
+    /// see, by few draws; no face that faces the eye is left out. A .gltf or .glb keeps all other bytes; the table is the
     /// extension MESHWEFT_culling of a primitive. Of a file of another format a .glb of its positions and faces is made.
     /// Faces that are transparent or seen from both sides keep their order; what joints or morph targets move gets no
     /// table. Numbers of vertices stay: run optimize on the result to number them in the order of their first use.

@@ -24,7 +24,7 @@ pub(super) struct Stats {
     /// How many directions at each distance
     #[arg(long, value_name = "N", default_value_t = CullStatsOptions::default().eyes)]
     eyes: usize,
-    /// Draw faces that are drawn, back faces that are not, and misses, over the distance of the eye
+    /// Plot the share of faces drawn, of back faces left out, and misses per face, over the distance of the eye
     #[arg(long, value_name = "OUT.svg")]
     plot: Option<PathBuf>,
     /// Let --plot replace a file that another program wrote
@@ -39,10 +39,14 @@ pub(super) struct Stats {
 /// Distances of a plot, evenly on its scale: 1.05 to 100 radii.
 const PLOTTED: usize = 24;
 
+/// More directions at a distance are not looked from.
+const MOST_EYES: usize = 100_000;
+
 /// Prints what the tables of a file leave out; fails if that is anything that is seen.
 pub(super) fn run(arguments: &Stats) -> Result<()> {
-    if arguments.eyes == 0 {
-        return Err(Usage("--eyes 0: nothing is seen from nowhere".into()).into());
+    if !(1..=MOST_EYES).contains(&arguments.eyes) {
+        let told = format!("--eyes {}: give 1 to {MOST_EYES}", arguments.eyes);
+        return Err(Usage(told).into());
     }
     if let Some(path) = &arguments.plot {
         PLOT.check_no_mesh(path, [arguments.input.as_path()])?;

@@ -42,7 +42,7 @@ impl Eye {
     }
 }
 
-/// All eyes in a box, in the space of the mesh: those of some frames, of both eyes of a viewer, of what a light may become.
+/// All eyes in a box, in the space of the mesh: those of some frames, of both eyes of a viewer, of a light that moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EyeBox {
     /// The least of each coordinate.
@@ -60,7 +60,7 @@ impl EyeBox {
         Self { low, high, w: 1.0 }
     }
 
-    /// Orthographic views towards which all directions in a box point.
+    /// All orthographic views whose direction towards the viewer is in a box.
     #[must_use]
     pub fn towards(low: [f32; 3], high: [f32; 3]) -> Self {
         Self { low, high, w: 0.0 }

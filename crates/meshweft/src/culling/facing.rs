@@ -33,12 +33,14 @@ pub(super) enum Facing {
 }
 
 impl Facing {
-    /// Of a face, by its corners.
-    pub(super) fn of(corners: [[f64; 3]; 3]) -> Self {
+    /// Of a face, by its corners; the plane is relative to an origin.
+    ///
+    /// The normal is that of the corners where they are: moved first, short edges would be rounded.
+    pub(super) fn of(corners: [[f64; 3]; 3], origin: [f64; 3]) -> Self {
         let [a, b, c] = corners;
         match normal(corners) {
             Some(normal) => {
-                let offset = dot(normal, a);
+                let offset = dot(normal, sub(a, origin));
                 Self::Plane(HalfSpace { normal, offset })
             }
             None if a == b || b == c || c == a => Self::Never,
@@ -48,9 +50,13 @@ impl Facing {
 
     /// Of a face whose corners may each be that far from where they are said to be: planes such that the face can be a
     /// front face only from in front of one of them. `None` for anywhere.
-    pub(super) fn planes_within(corners: [[f64; 3]; 3], error: f64) -> Option<Vec<HalfSpace>> {
+    pub(super) fn planes_within(
+        corners: [[f64; 3]; 3],
+        origin: [f64; 3],
+        error: f64,
+    ) -> Option<Vec<HalfSpace>> {
         let [a, b, c] = corners;
-        match Self::of(corners) {
+        match Self::of(corners, origin) {
             Self::Plane(plane) if error == 0.0 => return Some(vec![plane]),
             Self::Never if error == 0.0 => return Some(Vec::new()),
             Self::Plane(_) => {}
@@ -74,7 +80,7 @@ impl Facing {
         let plane = |[x, y]: [f64; 2]| {
             let edge = add(normal, add(scaled(across, x), scaled(up, y)));
             let edge = scaled(edge, 1.0 / length(edge));
-            let offset = dot(edge, a) - error;
+            let offset = dot(edge, sub(a, origin)) - error;
             HalfSpace {
                 normal: edge,
                 offset,

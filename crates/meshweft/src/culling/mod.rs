@@ -9,7 +9,7 @@
 //!
 //! **Front.** With `n = (b − a) × (c − a)`, a face is a *front face* for an [`Eye`] `(p, w)` if `n · p > w n · a`. That is decided in the
 //! space of the mesh: take the eye there by the inverse of its transform, and never the normals. It then holds under any affine
-//! transform; one that mirrors turns the corners over, and a renderer that follows glTF draws the other side then.
+//! transform; one that mirrors reverses the winding on the screen, and a renderer that follows glTF then reverses which winding is the front, so the same faces are drawn.
 //!
 //! **No front face is ever left out.** Every bound here errs on the side of drawing: ranges include what rounding may have put
 //! in the next one, and a face whose normal rounding may have turned is always drawn.

@@ -33,7 +33,7 @@ pub(super) const APEX_REACH: f64 = 4.0;
 ///
 /// Lines of sight to the front of any face of a cluster begin in front of its plane. In the plane at distance 1 along an axis
 /// the normals have a bounding rectangle; each normal is a sum of the four at its corners, with factors of at least 0. A point
-/// that all planes have in front of it, the *apex*, is put as far along the axis as there is one. If an eye is behind the planes
+/// behind the planes of all faces, the *apex*, is put as far along the axis as there is one. If an eye is behind the planes
 /// at the apex with these four normals, it is behind each face's: `n · (p − x) <= n · (p − apex) = Σ λ m · (p − apex)`.
 ///
 /// Of the ways to turn the rectangle that one is taken from which the fewest `eyes` see something.

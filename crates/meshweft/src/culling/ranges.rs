@@ -52,7 +52,7 @@ impl Ranges {
     /// # Complexity
     /// Time O(ranges).
     pub fn join_to(&mut self, most: usize) {
-        assert!(most > 0, "nothing can be drawn by no call");
+        assert!(most > 0, "at least one range is needed");
         let Some(surplus @ 1..) = self.ranges.len().checked_sub(most) else {
             return;
         };

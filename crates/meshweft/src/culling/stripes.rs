@@ -198,7 +198,7 @@ impl StripedFaces {
     /// The faces that may be front faces, as ranges of the faces in their new order: all front faces are in them.
     ///
     /// With the bounding ball around *O* with radius *r*, an eye at the distance *D* in direction *d*, and `s = r / D` (0 for an
-    /// orthographic view), some face with the normal *n* somewhere in the ball may be a front face if and only if `n · d >= −s`.
+    /// orthographic view), some face with the normal *n* somewhere in the ball may be a front face only if `n · d >= −s`.
     /// On the parallel at height *y* these are the longitudes at most *w* from that of *d*, where
     /// `cos w = (−s − y d_y) / √((1 − y²)(1 − d_y²))`. Between two parallels that has one maximum and no minimum, so *w* is largest
     /// on one of them.

@@ -13,7 +13,7 @@ use crate::index::index32;
 use crate::mesh::Mesh;
 use crate::parallel;
 
-/// Clusters of consecutive faces, and for each four planes: it is drawn if the eye is in front of one of them.
+/// Clusters of consecutive faces, and four planes for each: an eye behind all four sees no front face of it.
 ///
 /// What a renderer keeps of a mesh beside its faces, 68 bytes a cluster: it needs neither positions nor normals.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +47,11 @@ impl CullingTable {
     #[must_use]
     pub fn new(mesh: &Mesh, starts: &[u32]) -> Self {
         Self::within(mesh, starts, 0.0, &[])
+    }
+
+    /// Whether planes of a mesh with that bounding ball can be told apart from rounding.
+    pub(super) fn holds(ball: &Ball) -> bool {
+        ball.radius > f64::from(f32::MIN_POSITIVE) && ball.radius < 0.25 * f64::from(MOST_REACH)
     }
 
     /// As [`new`](Self::new), of positions that may each be `position_error` from where they are said to be, as after rounding
@@ -83,8 +88,8 @@ impl CullingTable {
         let planes_of = |range: Range<u32>| {
             let mut all = Vec::with_capacity(range.len());
             for face in &faces[range.start as usize..range.end as usize] {
-                let corners = face.map(|vertex| sub(widened(positions[vertex as usize]), origin));
-                match Facing::planes_within(corners, position_error) {
+                let corners = face.map(|vertex| widened(positions[vertex as usize]));
+                match Facing::planes_within(corners, origin, position_error) {
                     Some(planes) if is_sound => all.extend(planes),
                     _ => return planes::ALWAYS,
                 }
@@ -190,7 +195,7 @@ impl CullingTable {
     /// The faces that may be front faces, as ranges of the faces: all front faces are in them.
     ///
     /// # Complexity
-    /// Time O(clusters), about 20 additions and multiplications each, eight clusters side by side; memory only if the ranges
+    /// Time O(clusters), 28 additions and multiplications each, eight clusters side by side; memory only if the ranges
     /// have too little room.
     pub fn visible_ranges<'a>(&self, eye: Eye, ranges: &'a mut Ranges) -> &'a Ranges {
         self.ranges_of::<false>(eye.around(widened(self.center)), [0.0; 3], ranges)
@@ -272,7 +277,8 @@ impl ScaledEye {
         let sum = |[a, b, c]: [f64; 3]| a.abs() + b.abs() + c.abs();
         let size = sum([x, y, z]) + sum(half) + APEX_REACH * w * reach;
         // Also false for NaN.
-        let is_sound = size > f64::MIN_POSITIVE && size < f64::MAX && reach > 0.0;
+        let is_sound =
+            size > f64::MIN_POSITIVE && size < f64::MAX && reach >= f64::from(f32::MIN_POSITIVE);
         is_sound.then(|| {
             let scale = 1.0 / size;
             Self {
@@ -295,7 +301,7 @@ impl ScaledEye {
                 if BOX {
                     at += xs[lane].abs() * hx + ys[lane].abs() * hy + zs[lane].abs() * hz;
                 }
-                // Not `f32::max`, which takes care of what is no number: all are.
+                // Not `f32::max`, which takes care of NaN: there is none.
                 most[lane] = if at > most[lane] { at } else { most[lane] };
             }
         }

@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CullingTableError {
-    /// The starts of clusters do not rise from 0.
+    /// The starts of clusters do not begin with 0, or one is below the one before.
     Starts,
     /// The number of clusters that there are planes for is not the number of clusters.
     Count {
@@ -15,9 +15,9 @@ pub enum CullingTableError {
         /// For how many there are planes.
         found: usize,
     },
-    /// The center or the reach is no finite number, or too large, or the reach is below 0.
+    /// The center or the reach is not a finite number, or too large, or the reach is below 0.
     Ball,
-    /// A plane of this cluster has a normal longer than 1, or passes by the mesh too far away, or is no numbers.
+    /// A plane of this cluster has a normal longer than 1, or passes by the mesh too far away, or is not of finite numbers.
     Plane {
         /// The number of the cluster.
         cluster: usize,

@@ -163,6 +163,32 @@ fn what_any_eye_of_a_box_sees_is_drawn() {
     );
 }
 
+/// The edges of a small face are lost when its corners are moved to the middle of a large mesh; its normal must not be.
+#[test]
+fn small_faces_keep_their_normals() {
+    for size in [1e-6_f32, 1e-12, 1e-17, 1e-20] {
+        let small = [[0.0, 0.0, 0.0], [size, 0.0, 0.0], [0.0, size, 0.0]];
+        let large = [[5.1, 0.3, -0.7], [9.3, 0.3, -0.7], [5.1, 7.7, -0.7]];
+        let mesh = Mesh::new([small, large].concat(), [[0, 1, 2], [3, 5, 4]]).unwrap();
+        let clustered = ViewClusters::default().order(&mesh);
+        let table = CullingTable::new(&mesh, &[0, 1, 2]);
+        let mut ranges = Ranges::default();
+        for (order, table) in [
+            (clustered.order().new_to_old(), clustered.table()),
+            (&[0, 1][..], &table),
+        ] {
+            for eye in [Eye::towards([0.1, -0.2, 1.0]), Eye::at([3.0, 3.0, 50.0])] {
+                table.visible_ranges(eye, &mut ranges);
+                let drawn = ranges.as_slice().iter().flat_map(Clone::clone);
+                let drawn: Vec<u32> = drawn.map(|place| order[place as usize]).collect();
+                assert!(drawn.contains(&0), "{size}: {drawn:?}");
+            }
+            table.visible_ranges(Eye::towards([0.1, -0.2, -1.0]), &mut ranges);
+            assert!(ranges.face_count() < 2, "{size}");
+        }
+    }
+}
+
 #[test]
 fn an_eye_inside_or_no_eye_sees_everything() {
     let mesh = ball(8, 12, 0.0, false, &mut SplitMix64(2));

@@ -8,8 +8,8 @@ use crate::geometry::Ball;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SampledEyes {
-    /// Of each pair so many eyes in all directions, at that many radii of the bounding ball from its center; an infinite distance
-    /// for orthographic views. More eyes at a distance weigh more.
+    /// Pairs of a distance, in radii of the bounding ball from its center, and a number of eyes there, in all directions; an
+    /// infinite distance for orthographic views. More eyes at a distance weigh more.
     Around(Vec<(f64, usize)>),
     /// These, in the space of the mesh: positions of cameras, directions towards lights. One that comes more often weighs more.
     /// 64 eyes all around are added, so that faces that none of these sees are in clusters as well.

@@ -32,7 +32,8 @@ pub(super) fn joined<const WORDS: usize>(
                 price.weight(index32(members.vertices), index32(members.faces.len()))
             });
             let together = last_weight + next_weight - price.draw;
-            if cost(&last.mask, last_weight) + cost(&next.mask, next_weight) > cost(&both, together)
+            if cost(&last.mask, last_weight) + cost(&next.mask, next_weight)
+                >= cost(&both, together)
             {
                 last.faces.extend(next.faces);
                 last.vertices += next.vertices;

@@ -55,13 +55,12 @@ pub(super) fn of_faces<const WORDS: usize>(
     });
     let positions = mesh.positions();
     let mask_of = |&face: &u32| {
-        let corners = mesh.faces()[face as usize]
-            .map(|vertex| sub(widened(positions[vertex as usize]), origin));
+        let corners = mesh.faces()[face as usize].map(|vertex| widened(positions[vertex as usize]));
         let Some(normal) = normal(corners) else {
             return [0; WORDS];
         };
         let [a, b, c] = normal.map(rounded);
-        let h = rounded(dot(normal, corners[0]));
+        let h = rounded(dot(normal, sub(corners[0], origin)));
         std::array::from_fn(|word| {
             let mut bits = 0_u64;
             let (xs, ys, zs, ws) = (&xs[word], &ys[word], &zs[word], &ws[word]);

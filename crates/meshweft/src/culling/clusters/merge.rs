@@ -7,6 +7,13 @@ use crate::faces::Faces;
 use crate::index::index32;
 use crate::topology::Adjacency;
 
+/// A vertex of more faces is a *hub*: it joins only clusters that share another vertex too. A fan of many faces would take time
+/// by the square of them.
+pub(super) const MOST_AROUND: usize = 64;
+
+/// A cluster does not grow larger: one that always gains, in a mesh of faces that all eyes see, would take time by the square of it.
+const MOST_FACES: u32 = 1 << 13;
+
 /// What a cluster is expected to cost: the share of eyes that see something of it, times its vertices, plus `face` for each of its
 /// faces, plus `draw`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,15 +60,23 @@ fn count_shared(links: &mut Vec<Neighbor>, with: u32) {
         None => links.push(Neighbor {
             to: with,
             shared: 1,
+            hubs: 0,
         }),
     }
 }
 
-/// A neighbour, and how many vertices are in both.
+/// A neighbour, and how many vertices are in both: hubs, which have more than [`MOST_AROUND`] faces, and others.
 #[derive(Debug, Clone, Copy)]
 struct Neighbor {
     to: u32,
     shared: u32,
+    hubs: u32,
+}
+
+impl Neighbor {
+    fn all(self) -> u32 {
+        self.shared + self.hubs
+    }
 }
 
 /// What a cluster saves most by; of no use any more when one of both has changed.
@@ -121,23 +136,39 @@ impl<const WORDS: usize> Merging<WORDS> {
         let mut links: Vec<Vec<Neighbor>> = vec![Vec::new(); faces.len()];
         let mut borders: Vec<Vec<u32>> = vec![Vec::new(); faces.len()];
         let mut around = Vec::new();
+        let mut hubs = Vec::new();
         for vertex in 0..index32(faces.vertex_count()) {
             around.clear();
-            for &face in adjacency.faces_of(vertex) {
-                let cluster = into[face as usize];
-                if !around.contains(&cluster) {
-                    around.push(cluster);
-                }
-            }
+            around.extend(
+                adjacency
+                    .faces_of(vertex)
+                    .iter()
+                    .map(|&face| into[face as usize]),
+            );
+            around.sort_unstable();
+            around.dedup();
             let is_fixed = is_fixed(vertex);
+            let is_hub = adjacency.faces_of(vertex).len() > MOST_AROUND;
             for &cluster in &around {
                 clusters[cluster as usize].vertices += 1;
                 clusters[cluster as usize].is_fixed |= is_fixed;
-                if around.len() > 1 {
-                    borders[cluster as usize].push(vertex);
+                if around.len() < 2 || is_hub {
+                    continue;
                 }
+                borders[cluster as usize].push(vertex);
                 for &other in around.iter().filter(|&&other| other != cluster) {
                     count_shared(&mut links[cluster as usize], other);
+                }
+            }
+            if is_hub {
+                hubs.push(around.clone());
+            }
+        }
+        for around in hubs {
+            for &cluster in &around {
+                let links = links[cluster as usize].iter_mut();
+                for link in links.filter(|link| around.binary_search(&link.to).is_ok()) {
+                    link.hubs += 1;
                 }
             }
         }
@@ -176,15 +207,17 @@ impl<const WORDS: usize> Merging<WORDS> {
         if self.clusters[cluster as usize].is_fixed {
             return;
         }
+        let own_faces = self.clusters[cluster as usize].faces;
         let mut best = (0.0, u32::MAX);
         for link in self.links[cluster as usize]
             .iter()
-            .filter(|link| link.shared > 1)
+            .filter(|link| link.all() > 1)
         {
-            if self.clusters[link.to as usize].is_fixed {
+            let other = &self.clusters[link.to as usize];
+            if other.is_fixed || own_faces + other.faces > MOST_FACES {
                 continue;
             }
-            let gain = self.gain(cluster, link.to, link.shared);
+            let gain = self.gain(cluster, link.to, link.all());
             if gain > best.0 || (gain == best.0 && link.to < best.1) {
                 best = (gain, link.to);
             }
@@ -241,7 +274,7 @@ impl<const WORDS: usize> Merging<WORDS> {
         let shared = links
             .iter()
             .find(|link| link.to == b)
-            .map_or(0, |link| link.shared);
+            .map_or(0, |link| link.all());
         links.retain(|link| link.to != b);
 
         // Vertices of the other: what they are shared with. Each of them that is new here is shared by one more.
@@ -282,10 +315,10 @@ impl<const WORDS: usize> Merging<WORDS> {
             if old.to == a {
                 continue;
             }
-            let shared = links
-                .iter()
-                .find(|link| link.to == old.to)
-                .map_or(0, |link| link.shared);
+            let link = links.iter_mut().find(|link| link.to == old.to);
+            let link = link.expect("what has a vertex of one has a vertex of both");
+            link.hubs = link.hubs.max(old.hubs);
+            let new = Neighbor { to: a, ..*link };
             let back = &mut self.links[old.to as usize];
             let slot = back
                 .iter()
@@ -293,10 +326,10 @@ impl<const WORDS: usize> Merging<WORDS> {
                 .expect("links go both ways");
             match back.iter_mut().find(|back| back.to == a) {
                 Some(back_to_a) => {
-                    back_to_a.shared = shared;
+                    *back_to_a = new;
                     back.swap_remove(slot);
                 }
-                None => back[slot] = Neighbor { to: a, shared },
+                None => back[slot] = new,
             }
         }
         self.links[a as usize] = links;

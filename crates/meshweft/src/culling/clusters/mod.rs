@@ -1,4 +1,4 @@
-//! Clusters of faces that are seen from the same eyes.
+//! View-mask clusters: faces that are seen from the same eyes.
 //!
 //! Normals alone put faces from all over the mesh side by side, and each of their vertices is transformed for each of them. So
 //! clusters are made of neighbours here, by what drawing them is expected to cost: the share of eyes that see something of a
@@ -7,6 +7,7 @@
 //! 1. `eyes`: some hundred eyes are sampled. `masks`: a bit for each that is in front of a face.
 //! 2. `merge`: each face is a cluster; the two neighbours that save most become one, as long as that saves anything. A
 //!    cluster has the bits of all its faces. `parts` does that side by side.
+//!    `moves` then puts single faces into a neighbouring cluster where they cost less.
 //! 3. `tour`: clusters that are seen from nearly the same eyes come after each other, so that draws are few.
 //! 4. The faces of each cluster are put in an order for the cache, and [`CullingTable`] bounds from where it is seen.
 
@@ -14,6 +15,7 @@ mod eyes;
 mod face_cluster;
 mod masks;
 mod merge;
+mod moves;
 mod parts;
 #[cfg(test)]
 mod tests;
@@ -105,14 +107,17 @@ impl ClusteredFaces {
     }
 }
 
-/// More clusters than this are joined along a curve before they are put in order.
+/// More would not change anything.
+const MOST_COST: f32 = 1e6;
+
+/// More clusters than this are joined along a curve, and stay in its order if as many are left.
 const MOST_TO_ORDER: usize = 20_000;
 
 impl ViewClusters {
     /// The faces of a mesh in clusters.
     ///
-    /// Faces without an area are never drawn, faces of which rounding hides from where they are seen always: they come last,
-    /// in a cluster each of these kinds.
+    /// Two clusters come last. The first has the faces whose side rounding leaves unknown; it is always drawn. The second has the
+    /// faces with two equal corners, which have no front. A mesh too large or too small for a table is one cluster.
     ///
     /// # Panics
     /// If the mesh has no positions, or more than [`SampledEyes::MOST`] eyes are asked for.
@@ -127,11 +132,14 @@ impl ViewClusters {
         );
         let used = mesh.faces().as_flattened().iter();
         let used = used.map(|&vertex| widened(mesh.positions()[vertex as usize]));
-        let ball = Ball::around(used).filter(|ball| ball.radius > 0.0 && ball.radius.is_finite());
-        let ball = ball.unwrap_or(Ball {
-            center: [0.0; 3],
-            radius: 1.0,
-        });
+        let Some(ball) = Ball::around(used).filter(CullingTable::holds) else {
+            let end = index32(mesh.face_count());
+            let starts = if end == 0 { vec![0] } else { vec![0, end] };
+            return ClusteredFaces {
+                order: FaceOrder::identity(mesh.face_count()),
+                table: CullingTable::new(mesh, &starts),
+            };
+        };
         let eyes = self.eyes.eyes(ball);
         match eyes.len() {
             0..=64 => self.order_for::<1>(mesh, ball, &eyes),
@@ -152,7 +160,7 @@ impl ViewClusters {
         let mut others = [Vec::new(), Vec::new()];
         for (number, face) in (0..).zip(mesh.faces()) {
             let corners = face.map(|vertex| widened(mesh.positions()[vertex as usize]));
-            match Facing::of(corners) {
+            match Facing::of(corners, ball.center) {
                 Facing::Plane(_) => seen.push(number),
                 Facing::Unknown => others[0].push(number),
                 Facing::Never => others[1].push(number),
@@ -161,9 +169,11 @@ impl ViewClusters {
 
         // Clusters, in the order of a tour.
         let masks = masks::of_faces::<WORDS>(mesh, &seen, ball.center, eyes);
+        // NaN costs nothing too.
+        let cost = |cost: f32| if cost > 0.0 { cost.min(MOST_COST) } else { 0.0 };
         let price = Price {
-            face: self.face_cost,
-            draw: self.draw_cost,
+            face: cost(self.face_cost),
+            draw: cost(self.draw_cost),
         };
         let mut clusters = parts::clusters(mesh, &seen, &masks, price);
         let direction = |eye: &Eye| {
@@ -182,8 +192,10 @@ impl ViewClusters {
             let along = tour::along_a_curve(&masks_of(&clusters), &directions);
             clusters = joined(clusters, &along, price);
         }
-        let tour = tour::order(&masks_of(&clusters), &directions);
-        clusters = joined(clusters, &tour, price);
+        if clusters.len() <= MOST_TO_ORDER {
+            let tour = tour::order(&masks_of(&clusters), &directions);
+            clusters = joined(clusters, &tour, price);
+        }
 
         // The faces of each in order.
         let members = clusters.into_iter().map(|cluster| cluster.faces);

@@ -3,6 +3,7 @@
 use super::face_cluster::FaceCluster;
 use super::masks::{self, Mask};
 use super::merge::{Merging, Price};
+use super::moves;
 use crate::faces::Faces;
 use crate::first_use::FirstUse;
 use crate::geometry::double::{add, widened};
@@ -53,7 +54,8 @@ pub(super) fn clusters<const WORDS: usize>(
             }
         }
     }
-    let first_of = Merging::new(faces, masks, first_of, price, |_| false).run();
+    let mut first_of = Merging::new(faces, masks, first_of, price, |_| false).run();
+    moves::improve(faces, masks, &mut first_of, price);
 
     // Their members, by first face.
     let mut number = vec![u32::MAX; faces.len()];

@@ -2,7 +2,7 @@
 
 use super::masks::{self, Mask};
 use super::merge::{Merging, Price};
-use super::{SampledEyes, ViewClusters};
+use super::{SampledEyes, ViewClusters, moves};
 use crate::culling::{Eye, Ranges};
 use crate::faces::Faces;
 use crate::index::index32;
@@ -79,6 +79,77 @@ fn no_two_clusters_are_left_that_save_something_as_one() {
         merged += face_count - firsts.len();
     }
     assert!(merged > 500, "{merged} merges");
+}
+
+#[test]
+fn moves_cost_less_and_know_what_they_cost() {
+    let mut random = SplitMix64(5);
+    let mut moved = 0;
+    for _ in 0..60 {
+        let mesh = sheet(index32(2 + random.below(12)), &mut random);
+        let face_count = mesh.face_count();
+        let any = |random: &mut SplitMix64| {
+            [random.next() & random.next() & [u64::MAX, 0xffff, 0xff][random.below(3)]]
+        };
+        let masks: Vec<Mask<1>> = (0..face_count).map(|_| any(&mut random)).collect();
+        let price = Price {
+            face: 0.5,
+            draw: 2.0,
+        };
+        let cost = |first_of: &[u32]| {
+            let firsts = (0..index32(face_count)).filter(|&face| first_of[face as usize] == face);
+            let costs = firsts.map(|first| {
+                let members = (0..face_count).filter(|&face| first_of[face] == first);
+                let members: Vec<usize> = members.collect();
+                let mask = members
+                    .iter()
+                    .fold([0], |mask, &face| masks::union(&mask, &masks[face]));
+                let corners = members.iter().flat_map(|&face| mesh.faces()[face]);
+                let vertices = corners.collect::<std::collections::BTreeSet<u32>>().len();
+                masks::count(&mask) as f32 * price.weight(index32(vertices), index32(members.len()))
+            });
+            costs.sum::<f32>()
+        };
+        // Any clusters to begin with: strips of the sheet.
+        let width = index32(1 + random.below(9));
+        let mut first_of: Vec<u32> = (0..index32(face_count))
+            .map(|face| face / width * width)
+            .collect();
+        let before = (cost(&first_of), first_of.clone());
+        moves::improve((&mesh).into(), &masks, &mut first_of, price);
+        let changed = first_of
+            .iter()
+            .zip(&before.1)
+            .filter(|(a, b)| a != b)
+            .count();
+        assert!(
+            cost(&first_of) <= before.0,
+            "{} from {}",
+            cost(&first_of),
+            before.0
+        );
+        assert!(changed == 0 || cost(&first_of) < before.0);
+        moved += changed;
+    }
+    assert!(moved > 500, "{moved} faces were moved");
+}
+
+#[test]
+fn a_fan_of_many_faces_takes_no_time_by_the_square() {
+    let count = 100_000_u32;
+    let at = |i: u32| {
+        let turn = std::f64::consts::TAU * f64::from(i) / f64::from(count);
+        [turn.cos(), turn.sin(), 0.0].map(crate::culling::planes::rounded)
+    };
+    let positions: Vec<[f32; 3]> = std::iter::once([0.0, 0.0, 1.0])
+        .chain((0..count).map(at))
+        .collect();
+    let faces: Vec<[u32; 3]> = (0..count)
+        .map(|i| [0, 1 + i, 1 + (i + 1) % count])
+        .collect();
+    let mesh = Mesh::new(positions, faces).unwrap();
+    let clustered = ViewClusters::default().order(&mesh);
+    assert!(clustered.table().cluster_count() < 10_000);
 }
 
 #[test]

@@ -78,7 +78,7 @@ impl Remaining {
         }
     }
 
-    /// The face nearest to a point of those that are left; of several the first.
+    /// The face nearest to a point of those that are left.
     pub(super) fn nearest(&self, point: [f64; 3]) -> Option<u32> {
         let mut best = (f64::INFINITY, u32::MAX);
         self.search(point, 1, 0..self.faces.len(), &mut best);
@@ -112,7 +112,7 @@ impl Remaining {
         let distances = [0, 1].map(|half| self.nodes[2 * node + half].square_to(point));
         let nearer = usize::from(distances[1] < distances[0]);
         for half in [nearer, 1 - nearer] {
-            if distances[half] <= best.0 {
+            if distances[half] < best.0 {
                 self.search(point, 2 * node + half, halves[half].clone(), best);
             }
         }

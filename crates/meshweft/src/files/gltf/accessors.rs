@@ -159,6 +159,12 @@ impl<'a> Accessors<'a> {
         self.buffers.storages[storage].fixed
     }
 
+    /// How many bytes all buffers have.
+    pub(super) fn byte_count(&self) -> usize {
+        let storages = self.buffers.storages.iter();
+        storages.map(|storage| storage.bytes.len()).sum()
+    }
+
     /// The bytes that hold these records.
     pub(super) fn bytes(&self, records: &StridedRecords) -> &'a [u8] {
         &self.buffers.storages[records.storage].bytes

@@ -4,7 +4,7 @@
 //! Faces stay in their clusters, as in the runs of other formats, so the table stays true; what is out of order in it
 //! keeps the primitive as it is. The planes are not looked at before they are asked for.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::accessors::{Accessor, Accessors, FLOAT, Shape, UNSIGNED_INT};
@@ -30,9 +30,13 @@ pub(super) struct Culling {
     planes: StridedRecords,
 }
 
-/// Lists of starts that were looked through, each once for a number of faces, and whether they rise to it.
+/// Lists of starts that were looked through, each once, and to what they rise: nothing for one that does not.
 #[derive(Debug, Default)]
-pub(super) struct KnownStarts(RefCell<BTreeMap<(StridedRecords, usize), bool>>);
+pub(super) struct KnownStarts {
+    ends: RefCell<BTreeMap<StridedRecords, Option<u32>>>,
+    /// How many numbers were looked at.
+    looked_at: Cell<usize>,
+}
 
 impl Culling {
     /// The table of a primitive with so many faces, if it has one.
@@ -60,18 +64,20 @@ impl Culling {
                 .resolve(number, &table.pointer_to(name))
                 .map_err(told)?;
             records(&accessor, shape, component)
-                .ok_or_else(|| format!("{name} is not a list of numbers of its type"))
+                .ok_or_else(|| format!("{name} is not an accessor of its type, tightly packed, neither sparse nor compressed"))
         };
         let starts = list("starts", Shape::SCALAR, UNSIGNED_INT)?;
         let planes = list("planes", Shape::VEC4, FLOAT)?;
         let is_counted = planes.count % PLANES == 0 && planes.count / PLANES + 1 == starts.count;
         if !is_counted {
-            let (planes, starts) = (planes.count, starts.count);
-            return Err(format!("{planes} planes do not go with {starts} starts"));
+            let (planes, clusters) = (planes.count, starts.count.saturating_sub(1));
+            return Err(format!(
+                "{planes} planes for {clusters} clusters: each needs {PLANES}"
+            ));
         }
         if !known.rise_to(starts, face_count, accessors) {
             return Err(format!(
-                "the starts do not rise from 0 to its {face_count} faces"
+                "starts does not rise from 0 to {face_count}, the number of faces"
             ));
         }
 
@@ -121,17 +127,25 @@ impl Culling {
 
 impl KnownStarts {
     /// Whether starts rise from 0 to a number of faces. No cluster is empty, so that a list is not longer than the faces.
+    ///
+    /// Lists that overlap could be looked at for the square of what is stored: no more numbers are than there are bytes.
     fn rise_to(&self, starts: StridedRecords, face_count: usize, accessors: &Accessors) -> bool {
         if starts.count > face_count.saturating_add(1) {
             return false;
         }
-        let mut known = self.0.borrow_mut();
-        *known.entry((starts, face_count)).or_insert_with(|| {
+        let mut ends = self.ends.borrow_mut();
+        let end = ends.entry(starts).or_insert_with(|| {
+            let looked_at = self.looked_at.get().saturating_add(starts.count);
+            self.looked_at.set(looked_at);
+            if looked_at > accessors.byte_count() {
+                return None;
+            }
             let numbers = patch::numbers(accessors.bytes(&starts), &starts);
-            numbers.first() == Some(&0)
-                && numbers.last().map(|&end| end as usize) == Some(face_count)
-                && numbers.windows(2).all(|pair| pair[0] < pair[1])
-        })
+            let rise =
+                numbers.first() == Some(&0) && numbers.windows(2).all(|pair| pair[0] < pair[1]);
+            numbers.last().copied().filter(|_| rise)
+        });
+        end.is_some_and(|end| end as usize == face_count)
     }
 }
 
@@ -139,6 +153,7 @@ impl KnownStarts {
 fn records(accessor: &Accessor, shape: Shape, component: usize) -> Option<StridedRecords> {
     let is_other = accessor.is_sparse
         || accessor.is_compressed
+        || accessor.is_strided
         || accessor.shape != shape
         || accessor.component != component
         || accessor.unknown_extension.is_some();
@@ -173,23 +188,23 @@ pub(super) struct Tables {
     /// The first table of each mesh that has some.
     of_mesh: BTreeMap<usize, Culling>,
     seen: BTreeSet<(usize, StridedRecords)>,
+    runs: BTreeMap<usize, Vec<u32>>,
 }
 
 impl Tables {
-    /// Adds the table of a primitive that draws the faces of a mesh; the runs in which they stay, where more begin with it.
-    pub(super) fn add(
-        &mut self,
-        mesh: usize,
-        table: Option<&Culling>,
-        runs: &[u32],
-        buffers: &Buffers,
-    ) -> Option<Vec<u32>> {
-        let table = table.filter(|table| self.seen.insert((mesh, table.starts)))?;
+    /// Adds the table of a primitive that draws the faces of a mesh.
+    pub(super) fn add(&mut self, mesh: usize, table: Option<&Culling>, buffers: &Buffers) {
+        let Some(table) = table.filter(|table| self.seen.insert((mesh, table.starts))) else {
+            return;
+        };
         self.of_mesh.entry(mesh).or_insert(*table);
-        let mut all = [runs, &table.runs(buffers)].concat();
-        all.sort_unstable();
-        all.dedup();
-        Some(all)
+        let runs = self.runs.entry(mesh).or_default();
+        runs.extend(table.runs(buffers));
+    }
+
+    /// For each mesh where the clusters of its tables begin, in any order.
+    pub(super) fn take_runs(&mut self) -> BTreeMap<usize, Vec<u32>> {
+        std::mem::take(&mut self.runs)
     }
 
     pub(super) fn of(&self, mesh: usize) -> Option<&Culling> {

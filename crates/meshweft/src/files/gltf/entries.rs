@@ -96,12 +96,7 @@ impl Entries {
                 };
                 drawn_by[mesh].push(primitive.number.mesh);
 
-                let entry = &mut entries.meshes[mesh];
-                let runs = &entry.runs;
-                let tables = &mut entries.tables;
-                if let Some(runs) = tables.add(mesh, primitive.culling(), runs, buffers) {
-                    entry.runs = runs;
-                }
+                entries.tables.add(mesh, primitive.culling(), buffers);
 
                 if primitive.draws == Draws::FacesInOrder {
                     entries.meshes[mesh].faces_movable = false;
@@ -122,6 +117,12 @@ impl Entries {
             group.other_lists.extend(lists);
         }
 
+        for (mesh, runs) in entries.tables.take_runs() {
+            let all = &mut entries.meshes[mesh].runs;
+            all.extend(runs);
+            all.sort_unstable();
+            all.dedup();
+        }
         entries.add_vertices(byte_users, &group_of);
         let objects = objects(primitives, &drawn_by);
         for (entry, (object, has_other_faces)) in entries.meshes.iter_mut().zip(objects) {

@@ -162,14 +162,13 @@ fn clustered(
         SeenSides::Front => None,
     };
     if let Some(why) = why {
+        let mesh = compact(entry, positions).map_err(|error| error.to_string())?;
+        let mut table = stored(&CullingTable::new(&mesh, &[0, index32(face_count)]));
+        check(&table)?;
+        table.planes = vec![ALWAYS];
         return Ok(Clustered {
             order: FaceOrder::identity(face_count),
-            table: StoredCulling {
-                center: [0.0; 3],
-                reach: 0.0,
-                starts: vec![0, index32(face_count)],
-                planes: vec![ALWAYS],
-            },
+            table,
             outcome: CullOutcome::AlwaysDrawn(why),
         });
     }
@@ -179,20 +178,20 @@ fn clustered(
     let mesh = compact(entry, positions).map_err(|error| error.to_string())?;
     let ordered = clusters.order(&mesh);
     let table = stored(ordered.table());
-    let checked = CullingTable::from_parts(
-        table.center,
-        table.reach,
-        table.starts.clone(),
-        &table.planes,
-    );
-    match checked {
-        Ok(_) => Ok(Clustered {
-            order: ordered.order().clone(),
-            table,
-            outcome: CullOutcome::Clusters,
-        }),
-        Err(_) => Err("its positions are no numbers, or too large".to_owned()),
-    }
+    check(&table)?;
+    Ok(Clustered {
+        order: ordered.order().clone(),
+        table,
+        outcome: CullOutcome::Clusters,
+    })
+}
+
+/// Whether a file may have such a table.
+fn check(table: &StoredCulling) -> Result<(), String> {
+    let starts = table.starts.clone();
+    let checked = CullingTable::from_parts(table.center, table.reach, starts, &table.planes);
+    let told = |_| "a position is not a finite number, or is too large".to_owned();
+    checked.map(|_| ()).map_err(told)
 }
 
 /// The positions of a mesh; `shared` are those of all meshes, if all have some.

@@ -12,7 +12,7 @@ use crate::files::FileError;
 pub struct CullOptions {
     /// How clusters are made.
     pub clusters: ViewClusters,
-    /// Of a document that is no glTF: leave out whatever is not the name of a mesh, a position or a face.
+    /// For formats other than glTF: keep only names of meshes, positions and faces.
     pub drop_attributes: bool,
 }
 
@@ -80,7 +80,7 @@ impl fmt::Display for CullError {
             ),
             Self::Lost { file, what } => write!(
                 f,
-                "{}: a GLB is made of the positions and faces, and the file also has {}. Leave that out with \
+                "{}: a GLB is made of the positions and faces, and the file also has {}. Leave it out with \
                  drop_attributes, or convert the file to .glb first",
                 file.display(),
                 what.join(", ")

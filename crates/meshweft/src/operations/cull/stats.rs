@@ -11,7 +11,7 @@ use crate::files::{Document, FileError, Note, Place, StoredCulling};
 /// Looks at each mesh that has a culling table from many sides, and counts what is drawn.
 ///
 /// Directions are spread at random over the sphere, always the same ones. A face that faces the eye and is not drawn is
-/// counted too: there is none, if the table is one of these faces. A table whose numbers are out of range is not used,
+/// counted too: there is none, if the table matches the faces. A table whose numbers are out of range is not used,
 /// and a note says so.
 ///
 /// # Errors
@@ -75,7 +75,7 @@ pub fn cull_stats(
             .sum();
         if wrong > 0 {
             report.notes.push(note(format!(
-                "its culling table is not one of these faces: {wrong} times a face that faces the eye is left out"
+                "its culling table does not match its faces: in all views together, {wrong} front faces are left out"
             )));
         }
         let figures = CullingFigures {

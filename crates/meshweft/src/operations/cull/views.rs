@@ -25,11 +25,11 @@ pub struct ViewSums {
     pub faces: u64,
     /// Those that are drawn.
     pub drawn: u64,
-    /// Those that face away.
+    /// Those that do not face the eye: edge on and without an area too.
     pub back: u64,
     /// Those that face away and are not drawn.
     pub back_rejected: u64,
-    /// Those that surely face the eye and are not drawn: none, if the table is one of these faces.
+    /// Those that surely face the eye and are not drawn: none, if the table matches the faces.
     pub wrongly_rejected: u64,
     /// Ranges of faces that are drawn, each by a call.
     pub draws: u64,
