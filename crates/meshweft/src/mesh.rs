@@ -102,6 +102,16 @@ impl Mesh {
         self.faces.len()
     }
 
+    /// The position at each corner of each face, widened: what is measured of a surface leaves out vertices that no face
+    /// uses.
+    ///
+    /// # Panics
+    /// When a position is asked for, if there are faces but no positions.
+    pub(crate) fn corner_positions(&self) -> impl Iterator<Item = [f64; 3]> + Clone {
+        let vertices = self.faces.as_flattened().iter();
+        vertices.map(|&vertex| self.positions[vertex as usize].map(f64::from))
+    }
+
     /// The same mesh with its faces drawn in another order.
     ///
     /// # Panics

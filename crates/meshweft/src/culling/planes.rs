@@ -22,7 +22,7 @@ pub(super) fn is_within([x, y, z, offset]: [f32; 4], reach: f32) -> bool {
     is_constant || x * x + y * y + z * z <= 1.0 + 1e-6 && offset.abs() <= farthest
 }
 
-/// How the corners of the normals' rectangle are turned: so many ways are tried.
+/// How many ways to turn the normals' rectangle are tried.
 const TURNS: u32 = 8;
 
 /// How far an apex may be from the origin, in parts of the reach of all positions.

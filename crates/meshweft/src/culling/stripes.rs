@@ -109,12 +109,10 @@ impl NormalStripes {
             *next += 1;
         }
 
-        let used = faces.as_flattened().iter();
-        let used = used.map(|&vertex| widened(positions[vertex as usize]));
         let order = Permutation::from_algorithm(new_to_old);
         StripedFaces {
             order: FaceOrder::new(order, vec![0; faces.len()]).expect("a rotation for each face"),
-            ball: Ball::around(used),
+            ball: Ball::around(mesh.corner_positions()),
             bands,
             range_count,
             starts,

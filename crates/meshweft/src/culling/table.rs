@@ -69,9 +69,7 @@ impl CullingTable {
         assert!(is_whole, "clusters do not rise from 0 to all faces");
 
         // A ball around all that is used, with its center in single precision.
-        let used = faces.as_flattened().iter();
-        let used = used.map(|&vertex| widened(positions[vertex as usize]));
-        let ball = Ball::around(used);
+        let ball = Ball::around(mesh.corner_positions());
         let center = ball.map_or([0.0; 3], |ball| ball.center.map(rounded));
         let origin = widened(center);
         let reach = ball.map_or(0.0, |ball| {
@@ -154,6 +152,9 @@ impl CullingTable {
             }),
         }
     }
+
+    /// The planes of a cluster that is always drawn.
+    pub const ALWAYS_DRAWN: [[f32; 4]; 4] = planes::ALWAYS;
 
     /// How many clusters there are.
     #[must_use]

@@ -54,9 +54,7 @@ fn clusters_leave_out_no_front_face() {
         let starts = any_starts(mesh.face_count(), &mut random);
         let table = CullingTable::new(&mesh, &starts);
         let order: Vec<u32> = (0..index32(mesh.face_count())).collect();
-        let used = mesh.faces().as_flattened().iter();
-        let used = used.map(|&vertex| mesh.positions()[vertex as usize].map(f64::from));
-        let around = Ball::around(used).unwrap();
+        let around = Ball::around(mesh.corner_positions()).unwrap();
         let mut ranges = Ranges::default();
         for _ in 0..60 {
             let eye = any_eye(&mesh, around, &mut random);

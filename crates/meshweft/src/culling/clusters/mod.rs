@@ -130,9 +130,7 @@ impl ViewClusters {
             mesh.faces().is_empty() || !mesh.positions().is_empty(),
             "no positions"
         );
-        let used = mesh.faces().as_flattened().iter();
-        let used = used.map(|&vertex| widened(mesh.positions()[vertex as usize]));
-        let Some(ball) = Ball::around(used).filter(CullingTable::holds) else {
+        let Some(ball) = Ball::around(mesh.corner_positions()).filter(CullingTable::holds) else {
             let end = index32(mesh.face_count());
             let starts = if end == 0 { vec![0] } else { vec![0, end] };
             return ClusteredFaces {

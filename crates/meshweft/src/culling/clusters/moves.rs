@@ -9,7 +9,7 @@ use crate::topology::{Adjacency, distinct};
 /// So often all faces are looked at, at most; after three times hardly any is moved.
 const ROUNDS: u32 = 3;
 
-/// Of so many neighbouring clusters a face chooses at most.
+/// How many neighbouring clusters a face chooses from, at most.
 const MOST_BESIDE: usize = 12;
 
 /// Moves faces to a neighbouring cluster as long as that costs less: in the order of faces, each to the cluster where it saves most.

@@ -11,7 +11,7 @@ use crate::index::index32;
 use crate::mesh::Mesh;
 use crate::parallel;
 
-/// Parts have at most so many faces.
+/// How many faces a part has, at most.
 const PART: usize = 1 << 15;
 
 /// Some faces in clusters; each mask is that of a face.

@@ -7,7 +7,7 @@ use crate::index::index32;
 /// So many clusters that are seen from nearly the same eyes are known of each.
 const NEAR: usize = 10;
 
-/// Up to so many clusters, each is compared with each.
+/// Up to this many clusters, each is compared with each.
 const FEW: usize = 1500;
 
 /// How many eyes see just one of two.

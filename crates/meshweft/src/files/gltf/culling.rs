@@ -39,7 +39,7 @@ pub(super) struct KnownStarts {
 }
 
 impl Culling {
-    /// The table of a primitive with so many faces, if it has one.
+    /// The table of a primitive, if it has one, by its number of faces.
     ///
     /// # Errors
     /// Why it cannot be one of these faces.

@@ -54,7 +54,7 @@ impl GltfFile {
     }
 }
 
-/// Whether a table may be one of so many faces.
+/// Whether a table may be one of that number of faces.
 fn check(table: &StoredCulling, face_count: usize) -> Result<(), FileErrorKind> {
     let StoredCulling {
         center,

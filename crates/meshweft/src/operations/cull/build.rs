@@ -16,9 +16,6 @@ use crate::mesh::Mesh;
 use crate::permutation::FaceOrder;
 use crate::progress::Progress;
 
-/// Of a cluster that is always drawn.
-const ALWAYS: [[f32; 4]; 4] = [[0.0, 0.0, 0.0, 1.0]; 4];
-
 /// Puts the faces of a document in clusters, and adds tables that say from where these are seen (the extension
 /// `MESHWEFT_culling` of a glTF).
 ///
@@ -165,7 +162,7 @@ fn clustered(
         let mesh = compact(entry, positions).map_err(|error| error.to_string())?;
         let mut table = stored(&CullingTable::new(&mesh, &[0, index32(face_count)]));
         check(&table)?;
-        table.planes = vec![ALWAYS];
+        table.planes = vec![CullingTable::ALWAYS_DRAWN];
         return Ok(Clustered {
             order: FaceOrder::identity(face_count),
             table,

@@ -1,6 +1,6 @@
 //! Which faces of a document need not be drawn, and what that saves.
 //!
-//! Read `build` for how a document gets its tables, `created` for what becomes of one that is no glTF, `stats` for what
+//! Read `build` for how a document gets its tables, `created` for what becomes of one in another format, `stats` for what
 //! tables leave out.
 
 mod build;

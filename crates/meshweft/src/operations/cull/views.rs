@@ -83,9 +83,7 @@ pub(super) fn look_at(
     distances: &[f64],
     eyes: usize,
 ) -> Vec<ViewSums> {
-    let used = mesh.faces().as_flattened().iter();
-    let used = used.map(|&vertex| widened(mesh.positions()[vertex as usize]));
-    let Some(ball) = Ball::around(used) else {
+    let Some(ball) = Ball::around(mesh.corner_positions()) else {
         return vec![ViewSums::default(); distances.len()];
     };
     let directions = directions(eyes);
