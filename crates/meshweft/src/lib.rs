@@ -57,6 +57,7 @@ mod first_use;
 pub mod geometry;
 mod index;
 mod limits;
+pub mod lod;
 mod mesh;
 pub mod operations;
 pub mod order;

@@ -6,6 +6,8 @@ mod deviation;
 pub(crate) mod double;
 mod lattice;
 pub(crate) mod linear_program;
+pub(crate) mod morton;
+
 mod normals;
 mod samples;
 mod surface;

@@ -7,7 +7,7 @@ use crate::sources::Sources;
 
 /// The rooms from the ground up, with the groups of rooms that each may name beside itself: only
 /// such as stand above it in this list, so that every arrow points one way.
-const ROOMS: [(&str, &[&[&str]]); 23] = [
+const ROOMS: [(&str, &[&[&str]]); 24] = [
     ("error", &[]),
     ("index", &[&["error"]]),
     ("limits", &[BOUNDS]),
@@ -34,6 +34,8 @@ const ROOMS: [(&str, &[&[&str]]); 23] = [
         &[GROUND, VALUES, &["bits", "connectivity", "topology"]],
     ),
     ("culling", &[GROUND, VALUES, ALGORITHMS, &["order"]]),
+    // Its hierarchies are made of removals.
+    ("lod", &[GROUND, VALUES, &["topology", "progressive"]]),
     // Readers and writers know no algorithm, and no algorithm knows them.
     ("files", &[GROUND, VALUES]),
     // The only place that joins both.
@@ -50,6 +52,7 @@ const ROOMS: [(&str, &[&[&str]]); 23] = [
                 "compression",
                 "connectivity",
                 "culling",
+                "lod",
                 "files",
             ],
         ],

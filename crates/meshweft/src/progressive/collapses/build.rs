@@ -1,5 +1,6 @@
 //! The loop: which point is removed next, and what is noted of it.
 
+use super::balance::{self, HierarchyBalance};
 use super::costs::RemovalCosts;
 use super::fan::{Move, Precision};
 use super::link::{self, Marks};
@@ -19,6 +20,8 @@ pub(super) struct Builder<'a> {
     is_locked: Vec<bool>,
     costs: RemovalCosts,
     parts: Option<ConnectedParts>,
+    /// Where removals are for a hierarchy.
+    balance: Option<HierarchyBalance>,
     records: Records,
     largest_error: f32,
     marks: Marks,
@@ -38,11 +41,34 @@ impl<'a> Builder<'a> {
             is_locked: link::locked(&mut rest, settings.lock_border),
             costs: RemovalCosts::new(&settings, &rest, attributes),
             parts,
+            balance: None,
             records: Records::default(),
             largest_error: 0.0,
             marks: Marks::new(points),
             rest,
         }
+    }
+
+    /// The same, but removals are for a hierarchy: none is far above another, and each can be undone as soon as those around it
+    /// are.
+    pub(super) fn for_hierarchy(mut self) -> Self {
+        self.balance = Some(HierarchyBalance::new(self.rest.point_count()));
+        self
+    }
+
+    /// What a move costs, all in all.
+    fn cost(&self, point: u32, found: &Move) -> f64 {
+        match &self.balance {
+            Some(balance) => balance.cost(point, found, self.costs.mean_area(&self.rest)),
+            None => found.cost,
+        }
+    }
+
+    /// The place of the cheapest move.
+    fn cheapest(&self, point: u32) -> Option<usize> {
+        let moves = &self.costs.moves;
+        let cost = |at: usize| self.cost(point, &moves[at]);
+        (0..moves.len()).min_by(|&a, &b| cost(a).total_cmp(&cost(b)))
     }
 
     /// Removes points as long as there are too many faces; returns what was done and whether the error was
@@ -91,7 +117,7 @@ impl<'a> Builder<'a> {
             {
                 continue;
             }
-            let costs = self.costs.moves.iter().map(|it| it.cost);
+            let costs = self.costs.moves.iter().map(|it| self.cost(point, it));
             if let Some(least) = costs.min_by(f64::total_cmp) {
                 self.push(point, self.costs.key(least));
             }
@@ -127,9 +153,9 @@ impl<'a> Builder<'a> {
         let mut is_gathered = false;
 
         // The cheapest move first, and only what it may cost at least is worth knowing more of.
-        while let Some(at) = cheapest(&self.costs.moves) {
+        while let Some(at) = self.cheapest(point) {
             let found = self.costs.moves[at];
-            let key = self.costs.key(found.cost);
+            let key = self.costs.key(self.cost(point, &found));
             if self.queue.is_later(key) {
                 self.push(point, key);
                 return;
@@ -160,7 +186,8 @@ impl<'a> Builder<'a> {
                     point,
                     found.to,
                 )
-                && self.costs.pair(&mut self.rest, found.to);
+                && self.costs.pair(&mut self.rest, found.to)
+                && (self.balance.is_none() || self.can_return(found.to));
             if is_allowed {
                 self.collapse(point, found);
                 return;
@@ -168,10 +195,18 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// Whether a removal can be undone alone.
+    fn can_return(&mut self, to: u32) -> bool {
+        balance::can_return(&mut self.rest, &self.costs.fan, to, &self.costs.pairs)
+    }
+
     /// Removes the point whose fan and pairs were found last.
     fn collapse(&mut self, point: u32, found: Move) {
         let error = self.costs.remove(point, found);
         self.largest_error = self.largest_error.max(error);
+        if let Some(balance) = &mut self.balance {
+            balance.removed(point, found.to);
+        }
         let fan = &self.costs.fan;
 
         // Faces that leave.
@@ -306,9 +341,4 @@ impl<'a> Builder<'a> {
         self.largest_error = self.largest_error.max(error);
         self.records.finish(self.largest_error);
     }
-}
-
-/// The place of the cheapest move.
-fn cheapest(moves: &[Move]) -> Option<usize> {
-    (0..moves.len()).min_by(|&a, &b| moves[a].cost.total_cmp(&moves[b].cost))
 }

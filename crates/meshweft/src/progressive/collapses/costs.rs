@@ -87,7 +87,7 @@ impl RemovalCosts {
     }
 
     /// The mean area of the faces, now.
-    fn mean_area(&self, rest: &RemainingMesh<'_>) -> f64 {
+    pub(super) fn mean_area(&self, rest: &RemainingMesh<'_>) -> f64 {
         0.5 * self.double_area / rest.live_faces() as f64
     }
 

@@ -16,6 +16,7 @@
 //! least as much as a hundredth of the bounding box's diagonal.
 
 mod attributes;
+mod balance;
 mod build;
 mod costs;
 mod fan;
@@ -61,6 +62,34 @@ impl Collapses {
         mesh: &Mesh,
         attributes: &[Attribute],
     ) -> Result<ProgressiveMesh, MeshError> {
+        let (mesh, _) = self.built(mesh, attributes, false)?;
+        Ok(mesh)
+    }
+
+    /// The same with removals for a vertex hierarchy, and the point of each vertex: each removes one point, with one or two
+    /// faces, but the first one if it only takes faces with two corners at one point. No removal is far above another, and the vertices of
+    /// the faces that leave can be told from those around.
+    ///
+    /// Give it settings that neither cross seams nor drop parts.
+    pub(crate) fn build_balanced(
+        &self,
+        mesh: &Mesh,
+        attributes: &[Attribute],
+    ) -> Result<(ProgressiveMesh, Vec<u32>), MeshError> {
+        debug_assert!(
+            !self.cross_seams && !self.drop_parts,
+            "one point, one or two faces"
+        );
+        self.built(mesh, attributes, true)
+    }
+
+    /// The mesh with its removals, and the point of each vertex.
+    fn built(
+        &self,
+        mesh: &Mesh,
+        attributes: &[Attribute],
+        is_balanced: bool,
+    ) -> Result<(ProgressiveMesh, Vec<u32>), MeshError> {
         let length = |what, found: usize| match found == mesh.vertex_count() {
             true => Ok(()),
             false => Err(MeshError::LengthMismatch {
@@ -82,14 +111,18 @@ impl Collapses {
         let faces: Vec<[u32; 3]> = mesh.faces().iter().map(|face| face.map(same)).collect();
         let rest = RemainingMesh::new(positions, &faces, &points.point_of);
         let WeldedPoints { same_as, point_of } = points;
-        drop(point_of);
-        let (records, is_limited) = Builder::new(*self, rest, &attributes).run();
+        let mut builder = Builder::new(*self, rest, &attributes);
+        if is_balanced {
+            builder = builder.for_hierarchy();
+        }
+        let (records, is_limited) = builder.run();
         let left = faces.len() - records.left_after(records.len());
         let stop = match (left <= self.faces, is_limited) {
             (true, _) => StopReason::Faces,
             (false, true) => StopReason::Error,
             (false, false) => StopReason::NothingLeft,
         };
-        Ok(ProgressiveMesh::new(faces, same_as, records, stop))
+        let progressive = ProgressiveMesh::new(faces, same_as, records, stop);
+        Ok((progressive, point_of))
     }
 }

@@ -1,0 +1,70 @@
+//! From a mesh to its vertex hierarchy.
+
+use super::hierarchy::VertexHierarchy;
+use super::numbering;
+use super::replay::Replay;
+use crate::attribute::Attribute;
+use crate::error::MeshError;
+use crate::mesh::Mesh;
+use crate::progressive::{AttributeWeights, Collapses};
+
+/// Makes vertex hierarchies.
+///
+/// ```
+/// use meshweft::Mesh;
+/// use meshweft::lod::fast_mesh::{FastMesh, Front};
+/// // A flat square of 8 by 8 cells.
+/// let positions: Vec<[f32; 3]> = (0..81).map(|i| [(i % 9) as f32, (i / 9) as f32, 0.0]).collect();
+/// let cell = |i: u32| [[i, i + 1, i + 9], [i + 9, i + 1, i + 10]];
+/// let faces: Vec<_> = (0..72).filter(|i| i % 9 != 8).flat_map(cell).collect();
+/// let mesh = Mesh::new(positions, faces)?;
+///
+/// let mut front = Front::new(FastMesh::default().build(&mesh, &[])?);
+/// assert_eq!(front.face_count(), 2); // The coarsest mesh is still the whole square.
+/// front.refine_fully();
+/// assert_eq!(front.face_count(), 128);
+/// # Ok::<(), meshweft::MeshError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FastMesh {
+    /// What differences in attributes count when it is decided which point leaves next.
+    pub weights: AttributeWeights,
+}
+
+impl FastMesh {
+    /// The hierarchy of a mesh; `attributes` are of its vertices (others are not looked at).
+    ///
+    /// Vertices that agree in position and every attribute, byte for byte (−0 is 0), count as one. Any mesh will do: points where the
+    /// surface is not a manifold never leave, see [`VertexHierarchy::cut_points`].
+    ///
+    /// # Errors
+    /// [`MeshError::LengthMismatch`] if the mesh has faces and no positions, or an attribute of vertices
+    /// has another number of elements; [`MeshError::TooLarge`] from 2²⁸ vertices on.
+    ///
+    /// # Complexity
+    /// Time O(faces), sorting apart; space about 350 bytes a vertex.
+    pub fn build(
+        &self,
+        mesh: &Mesh,
+        attributes: &[Attribute],
+    ) -> Result<VertexHierarchy, MeshError> {
+        let limit = 1 << 28;
+        if mesh.vertex_count() >= limit {
+            return Err(MeshError::TooLarge {
+                what: "vertices",
+                limit,
+                count: mesh.vertex_count(),
+            });
+        }
+        let collapses = Collapses {
+            weights: self.weights,
+            ..Collapses::default()
+        };
+        let (removals, point_of) = collapses.build_balanced(mesh, attributes)?;
+        let mut replay = Replay::new(mesh.positions(), &removals, point_of);
+        for level in 0..removals.last_level() {
+            replay.collapse(removals.collapse(level));
+        }
+        Ok(numbering::finish(replay))
+    }
+}

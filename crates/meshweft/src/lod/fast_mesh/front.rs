@@ -1,0 +1,319 @@
+//! The front: the vertices that are active, and the faces that they make.
+
+use super::changes::{FrontChanges, Touched};
+use super::hierarchy::VertexHierarchy;
+use super::tested::TestedPoints;
+use super::view::CameraView;
+use crate::topology::half_edges::NONE;
+
+/// A mesh as coarse as a view allows, which follows the view from frame to frame.
+///
+/// The faces are always those of an oriented manifold with the borders of the coarsest mesh, without cracks. They depend on the
+/// active points alone, not on how they came to be active.
+#[derive(Debug, Clone)]
+pub struct Front {
+    hierarchy: VertexHierarchy,
+    /// Of each point its place in one of the two lists, or [`NONE`].
+    places: Vec<u32>,
+    /// Points that may leave and have not.
+    active: TestedPoints,
+    /// Points that left, next below an active one.
+    waiting: TestedPoints,
+    face_count: usize,
+    vertex_count: usize,
+    touched_points: Touched,
+    touched_faces: Touched,
+    changes: FrontChanges,
+    /// Points that are to be split, each after those above it in the stack.
+    to_split: Vec<u32>,
+    /// Points that no other needs any more.
+    to_collapse: Vec<u32>,
+}
+
+/// Places of points that wait have this bit.
+const WAITING: u32 = 1 << 31;
+/// In the numbers of points that need one, above the four bits of the flags.
+const ONE_NEED: u32 = 1 << 4;
+
+impl Front {
+    /// The coarsest mesh: only roots are active.
+    ///
+    /// # Complexity
+    /// Time O(roots), space 8 bytes a vertex, 48 for each that is active, and 48 for each just below.
+    #[must_use]
+    pub fn new(hierarchy: VertexHierarchy) -> Self {
+        let points = hierarchy.nodes.len();
+        let mut front = Self {
+            places: vec![NONE; points],
+            active: TestedPoints::default(),
+            waiting: TestedPoints::default(),
+            face_count: hierarchy.root_faces as usize,
+            vertex_count: 0,
+            touched_points: Touched::new(points),
+            touched_faces: Touched::new(hierarchy.face_slot_count()),
+            changes: FrontChanges::default(),
+            to_split: Vec::new(),
+            to_collapse: Vec::new(),
+            hierarchy,
+        };
+        for root in 0..front.hierarchy.roots {
+            let child = front.hierarchy.nodes[root as usize].first_child;
+            front.wait(child);
+        }
+        front.vertex_count = front.vertices().count();
+        front
+    }
+
+    /// The hierarchy.
+    #[must_use]
+    pub fn hierarchy(&self) -> &VertexHierarchy {
+        &self.hierarchy
+    }
+
+    /// How many vertices are active, roots and all vertices at one point included.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.vertex_count
+    }
+
+    /// How many faces there are.
+    #[must_use]
+    pub fn face_count(&self) -> usize {
+        self.face_count
+    }
+
+    /// What the last update changed.
+    #[must_use]
+    pub fn changes(&self) -> &FrontChanges {
+        &self.changes
+    }
+
+    /// Whether a point is active.
+    #[inline]
+    fn is_active(&self, point: u32) -> bool {
+        !self.hierarchy.may_leave(point) || self.places[point as usize] < WAITING
+    }
+
+    /// The three vertices of a face, counterclockwise as seen from outside; `None` if it is not there.
+    #[must_use]
+    pub fn face(&self, face: u32) -> Option<[u32; 3]> {
+        let is_there = match self.hierarchy.point_of_face(face) {
+            Some(point) => self.is_active(point) && self.hierarchy.edges.start(3 * face) != NONE,
+            None => true,
+        };
+        is_there.then(|| self.hierarchy.edges.face(face))
+    }
+
+    /// All faces that are there, with their numbers, in no particular order.
+    pub fn faces(&self) -> impl Iterator<Item = (u32, [u32; 3])> {
+        let root_faces = 0..self.hierarchy.root_faces;
+        let others = self.active.points().flat_map(|point| {
+            let first = self.hierarchy.root_faces + 2 * (point - self.hierarchy.roots);
+            [first, first + 1]
+        });
+        root_faces
+            .chain(others)
+            .filter_map(|face| Some((face, self.face(face)?)))
+    }
+
+    /// All vertices that are active, in no particular order.
+    pub fn vertices(&self) -> impl Iterator<Item = u32> {
+        let points = (0..self.hierarchy.roots).chain(self.active.points());
+        points.flat_map(|point| self.hierarchy.vertices_of(point))
+    }
+
+    /// Makes the mesh what a view asks for: where the error can be seen it gets finer, where it cannot it gets coarser.
+    ///
+    /// With `hysteresis` 1 the result depends on the view alone: every point whose error can be seen is active, and those that it
+    /// needs. Below 1, a point stays active until its error is that part of the tolerance, so that small moves of the camera back and
+    /// forth change nothing.
+    ///
+    /// # Complexity
+    /// Time O(vertices that are active + vertices that change), no allocation once the lists have grown.
+    ///
+    /// # Panics
+    /// If `hysteresis` is not above 0 and at most 1.
+    pub fn update(&mut self, view: &CameraView, hysteresis: f64) -> &FrontChanges {
+        assert!(
+            hysteresis > 0.0 && hysteresis <= 1.0,
+            "a part of the tolerance"
+        );
+        self.changes.clear();
+        self.refine(view);
+        self.coarsen(&view.with_tolerance(hysteresis));
+        self.settle();
+        &self.changes
+    }
+
+    /// Makes every point active: the mesh of the input.
+    pub fn refine_fully(&mut self) -> &FrontChanges {
+        self.changes.clear();
+        for point in self.hierarchy.leaving_points() {
+            self.split(point);
+        }
+        self.settle();
+        &self.changes
+    }
+
+    fn refine(&mut self, view: &CameraView) {
+        self.waiting.rewind();
+        while let Some(point) = self.waiting.next(|bound| view.needs(bound)) {
+            self.split(point);
+        }
+    }
+
+    fn coarsen(&mut self, view: &CameraView) {
+        self.active.rewind();
+        while let Some(point) = self.active.next(|bound| !view.needs(bound)) {
+            // What a collapse sets free is tried at once, as it may have been passed.
+            self.to_collapse.push(point);
+            while let Some(point) = self.to_collapse.pop() {
+                if self.can_collapse(point) && !view.needs(&self.bound_of(point)) {
+                    self.collapse(point);
+                }
+            }
+        }
+    }
+
+    fn bound_of(&self, point: u32) -> super::view::DetailBound {
+        self.active.entries()[self.places[point as usize] as usize].0
+    }
+
+    /// Whether a point is active and no other needs it.
+    fn can_collapse(&self, point: u32) -> bool {
+        self.hierarchy.may_leave(point)
+            && self.places[point as usize] < WAITING
+            && self.hierarchy.needs[point as usize] < ONE_NEED
+    }
+
+    /// Makes a point active, and before it those that it needs.
+    fn split(&mut self, point: u32) {
+        self.to_split.push(point);
+        while let Some(&point) = self.to_split.last() {
+            if self.is_active(point) {
+                self.to_split.pop();
+                continue;
+            }
+            let is_missing = |it: &u32| !self.is_active(*it);
+            let missing = self.hierarchy.needed_by(point).find(is_missing);
+            match missing {
+                Some(other) => self.to_split.push(other),
+                None => self.split_one(point),
+            }
+        }
+    }
+
+    /// Makes a point active whose needed ones are.
+    fn split_one(&mut self, point: u32) {
+        if self.places[point as usize] != NONE {
+            self.waiting.take(point, &mut self.places, WAITING);
+        }
+        let bound = self.hierarchy.bound(point);
+        self.active.add(point, bound, &mut self.places, 0);
+        self.touched_points.touch(point, false);
+        self.count_needs(point, true);
+
+        let edge = self.hierarchy.edge(point);
+        for face in edge.faces() {
+            self.touched_faces.touch(face, false);
+            self.face_count += 1;
+        }
+        let flags = self.hierarchy.needs[point as usize] % ONE_NEED;
+        let touched = &mut self.touched_faces;
+        edge.split(flags, &mut self.hierarchy.edges, |half_edge| {
+            touched.touch(half_edge / 3, true);
+        });
+        self.vertex_count += self.hierarchy.vertices_of(point).count();
+
+        let node = self.hierarchy.nodes[point as usize];
+        self.wait(node.first_child);
+        self.wait(node.next_sibling);
+    }
+
+    /// A point leaves that no other needs.
+    fn collapse(&mut self, point: u32) {
+        self.vertex_count -= self.hierarchy.vertices_of(point).count();
+        let edge = self.hierarchy.edge(point);
+        for face in edge.faces() {
+            self.touched_faces.touch(face, true);
+            self.face_count -= 1;
+        }
+        let touched = &mut self.touched_faces;
+        edge.collapse(&mut self.hierarchy.edges, |half_edge| {
+            touched.touch(half_edge / 3, true);
+        });
+
+        self.active.take(point, &mut self.places, 0);
+        self.touched_points.touch(point, true);
+        self.count_needs(point, false);
+        let node = self.hierarchy.nodes[point as usize];
+        for below in [node.first_child, node.next_sibling] {
+            if below != NONE && self.is_waiting(below) {
+                self.waiting.take(below, &mut self.places, WAITING);
+            }
+        }
+        self.wait(point);
+    }
+
+    fn is_waiting(&self, point: u32) -> bool {
+        let place = self.places[point as usize];
+        place != NONE && place >= WAITING
+    }
+
+    /// A point is to be tested, unless it is active or is tested already.
+    fn wait(&mut self, point: u32) {
+        if point != NONE && self.places[point as usize] == NONE {
+            let bound = self.hierarchy.bound(point);
+            self.waiting.add(point, bound, &mut self.places, WAITING);
+        }
+    }
+
+    /// One more point needs those that a point needs, or one less.
+    fn count_needs(&mut self, point: u32, is_more: bool) {
+        // At most five: the parent and those around two faces.
+        let mut needed = [NONE; 5];
+        for (place, other) in needed.iter_mut().zip(self.hierarchy.needed_by(point)) {
+            *place = other;
+        }
+        for other in needed.into_iter().filter(|&it| it != NONE) {
+            let needs = &mut self.hierarchy.needs[other as usize];
+            if is_more {
+                *needs += ONE_NEED;
+            } else {
+                *needs -= ONE_NEED;
+                if *needs < ONE_NEED {
+                    self.to_collapse.push(other);
+                }
+            }
+        }
+    }
+
+    /// Says what changed in all.
+    fn settle(&mut self) {
+        self.to_collapse.clear();
+        let mut touched = std::mem::take(&mut self.touched_points);
+        let mut changes = std::mem::take(&mut self.changes);
+        touched.drain(|point, was_active| {
+            let list = match (was_active, self.is_active(point)) {
+                (false, true) => &mut changes.added_vertices,
+                (true, false) => &mut changes.removed_vertices,
+                _ => return,
+            };
+            list.extend(self.hierarchy.vertices_of(point));
+        });
+        self.touched_points = touched;
+
+        let mut touched = std::mem::take(&mut self.touched_faces);
+        touched.drain(|face, was_there| {
+            let list = match (was_there, self.face(face).is_some()) {
+                (false, true) => &mut changes.added_faces,
+                (true, false) => &mut changes.removed_faces,
+                (true, true) => &mut changes.changed_faces,
+                (false, false) => return,
+            };
+            list.push(face);
+        });
+        self.touched_faces = touched;
+        self.changes = changes;
+    }
+}

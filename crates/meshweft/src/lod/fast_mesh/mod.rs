@@ -1,0 +1,42 @@
+//! View-dependent detail of a mesh: half-edge collapses in a hierarchy, and a front that follows the camera.
+//!
+//! Renato Pajarola, Christopher DeCoro: *Efficient Implementation of Real-Time View-Dependent Multiresolution Meshing*, IEEE
+//! Transactions on Visualization and Computer Graphics 10(3), 2004, doi:10.1109/TVCG.2004.1272735, and the first half of Roberto
+//! Lario, Renato Pajarola, Francisco Tirado: *Cached Geometry Manager for View-dependent LOD Rendering*, WSCG 2005.
+//!
+//! A mesh is simplified by half-edge collapses until nothing can leave: what is left are the *roots*. Each collapse is a node of a
+//! forest. It knows how far the coarse surface is from the input's vertices there, a ball around everything that there is below
+//! it, and a cone around all normals. A [`Front`] holds the vertices that are *active*: it starts with the roots, splits where the error
+//! could be seen, and collapses again where it no longer can. Both change a few links, and what they change is said.
+//!
+//! # Where the papers leave room
+//! - **When a vertex can be split.** Its parent is active, and so are the faces around the two that return. That is known from the
+//!   coarsest mesh alone, as faces that left keep their links: no topology is tested at run time. A vertex can be collapsed as
+//!   long as no active vertex needs it.
+//! - **Numbers.** A vertex that can leave has the same number as its two faces, but for a factor of two: a list of the active vertices is a
+//!   list of the active faces. Vertices are numbered from coarse to fine, near ones together.
+//! - **Bounds.** Errors, balls and cones contain those below, along the collapses into one vertex too: what fails is always at the top
+//!   of the forest, so only the vertices of the front and those just below it are tested.
+//! - **Seams.** A point's vertices go together, each to its partner. Points where the surface is not a manifold stay.
+//!
+//! Read `links` first, one collapse and its split; then `replay`, how each comes about, and `front`.
+
+mod build;
+mod changes;
+mod cone;
+mod deviation;
+mod front;
+mod hierarchy;
+mod links;
+mod numbering;
+mod replay;
+mod tested;
+#[cfg(test)]
+mod tests;
+mod view;
+
+pub use build::FastMesh;
+pub use changes::FrontChanges;
+pub use front::Front;
+pub use hierarchy::VertexHierarchy;
+pub use view::{Camera, CameraView, ViewError};

@@ -1,0 +1,248 @@
+//! The removals of a mesh, played on half-edges, with what has to be known of each.
+
+use super::cone::PackedCone;
+use super::deviation::NearestFaces;
+use super::hierarchy::HierarchyNode;
+use super::links::Edge;
+use crate::geometry::double::{add, cross, dot, scaled, sub, widened};
+use crate::index::index32;
+use crate::progressive::{Collapse, ProgressiveMesh};
+use crate::topology::half_edges::{HalfEdges, NONE, next, previous};
+
+/// A collapse, in the numbers of the input.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Made {
+    pub(super) point: u32,
+    pub(super) edge: Edge,
+    pub(super) flags: u32,
+}
+
+/// The mesh while points leave, in the numbers of the input, but for faces: those with two corners at one point are left out.
+#[derive(Debug)]
+pub(super) struct Replay<'a> {
+    pub(super) positions: &'a [[f32; 3]],
+    /// The first vertex at the place of each.
+    pub(super) point_of: Vec<u32>,
+    pub(super) edges: HalfEdges,
+    pub(super) nodes: Vec<HierarchyNode>,
+    pub(super) made: Vec<Made>,
+    pub(super) flat_faces: Vec<u32>,
+    pub(super) cut_points: usize,
+    /// The number here of each face of the input.
+    face_of: Vec<u32>,
+    deviation: NearestFaces,
+    /// The faces around the point that leaves; those that stay, with their corners; and normals of both.
+    faces: Vec<u32>,
+    staying: Vec<(u32, [[f64; 3]; 3])>,
+    normals: Vec<[f64; 3]>,
+}
+
+impl<'a> Replay<'a> {
+    pub(super) fn new(
+        positions: &'a [[f32; 3]],
+        removals: &ProgressiveMesh,
+        point_of: Vec<u32>,
+    ) -> Self {
+        let mut faces = Vec::with_capacity(removals.faces().len());
+        let mut face_of = vec![NONE; removals.faces().len()];
+        let mut flat_faces = Vec::new();
+        for (number, &face) in (0..).zip(removals.faces()) {
+            let [a, b, c] = face.map(|vertex| point_of[vertex as usize]);
+            if a == b || b == c || c == a {
+                flat_faces.push(number);
+            } else {
+                face_of[number as usize] = index32(faces.len());
+                faces.push(face);
+            }
+        }
+
+        // Twins are found between points; then corners get their vertices.
+        let point = |vertex: u32| point_of[vertex as usize];
+        let points: Vec<[u32; 3]> = faces.iter().map(|&face| face.map(point)).collect();
+        let mut edges = HalfEdges::new(&points, positions.len());
+        let cut_points = cut_points(&edges, positions.len());
+        for (half_edge, &vertex) in (0..).zip(faces.as_flattened()) {
+            edges.set_start(half_edge, vertex);
+        }
+        Self {
+            positions,
+            nodes: vec![HierarchyNode::ROOT; positions.len()],
+            made: Vec::with_capacity(removals.last_level()),
+            deviation: NearestFaces::new(faces.len(), positions.len()),
+            point_of,
+            edges,
+            flat_faces,
+            cut_points,
+            face_of,
+            faces: Vec::new(),
+            staying: Vec::new(),
+            normals: Vec::new(),
+        }
+    }
+
+    fn position(&self, vertex: u32) -> [f64; 3] {
+        widened(self.positions[vertex as usize])
+    }
+
+    fn corners(&self, face: u32) -> [[f64; 3]; 3] {
+        self.edges.face(face).map(|vertex| self.position(vertex))
+    }
+
+    /// The edge along which a point leaves; `None` if no point does.
+    fn edge(&self, removal: Collapse<'_>) -> Option<(u32, u32, Edge)> {
+        let pair = removal.pairs().next()?;
+        let [point, to] = [pair.from, pair.to].map(|vertex| self.point_of[vertex as usize]);
+        let mut edge = Edge {
+            forth: NONE,
+            back: NONE,
+        };
+        for &face in removal.leaving_faces() {
+            let first = 3 * self.face_of[face as usize];
+            let at = |half_edge: u32| self.point_of[self.edges.start(half_edge) as usize];
+            let here = (first..first + 3).find(|&half_edge| at(half_edge) == point)?;
+            if at(next(here)) == to {
+                edge.forth = here;
+            } else {
+                edge.back = previous(here);
+            }
+        }
+        Some((point, to, edge))
+    }
+
+    /// A point leaves, with all that has to be known of it.
+    pub(super) fn collapse(&mut self, removal: Collapse<'_>) {
+        let Some((point, to, edge)) = self.edge(removal) else {
+            return;
+        };
+        let flags = edge.flags(&self.edges);
+        debug_assert!(flags.is_some(), "vertices can be told from those around");
+
+        // What there is around the point before.
+        self.faces.clear();
+        self.faces.extend(edge.faces());
+        let leaving = self.faces.len();
+        self.faces.extend(edge.fan(&self.edges).map(|it| it / 3));
+        self.normals.clear();
+        let middle = self.position(to);
+        let (mut square, mut axis) = (0.0_f64, [0.0; 3]);
+        for place in 0..self.faces.len() {
+            let corners = self.corners(self.faces[place]);
+            for corner in corners {
+                let way = sub(corner, middle);
+                square = square.max(dot(way, way));
+            }
+            axis = add(axis, self.put_normal(corners));
+        }
+        self.deviation.take(point, &self.faces);
+
+        edge.collapse(&mut self.edges, |_| {});
+
+        // What there is after. Where no face of the fan stays, those beyond the one that left.
+        self.staying.clear();
+        for place in leaving..self.faces.len() {
+            let face = self.faces[place];
+            let corners = self.corners(face);
+            self.staying.push((face, corners));
+            self.put_normal(corners);
+        }
+        if self.staying.is_empty() {
+            for face in edge.faces_around(&self.edges) {
+                self.staying.push((face, self.corners(face)));
+            }
+        }
+        let positions = self.positions;
+        let position = |point: u32| widened(positions[point as usize]);
+        let deviation = self.deviation.give(&self.staying, position);
+
+        self.make_node(point, to, [deviation, square.sqrt()], axis);
+        self.made.push(Made {
+            point,
+            edge,
+            flags: flags.unwrap_or_default(),
+        });
+    }
+
+    /// Remembers the normal of a face with an area; returns it, as long as the area is large.
+    fn put_normal(&mut self, [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+        let normal = cross(sub(b, a), sub(c, a));
+        let length = dot(normal, normal).sqrt();
+        if length > 0.0 {
+            self.normals.push(scaled(normal, 1.0 / length));
+        }
+        normal
+    }
+
+    /// The node of a collapse contains those below: of what went into the point, and of what went into its parent before.
+    fn make_node(
+        &mut self,
+        point: u32,
+        parent: u32,
+        [deviation, radius]: [f64; 2],
+        axis: [f64; 3],
+    ) {
+        let way = sub(self.position(point), self.position(parent));
+        let step = dot(way, way).sqrt();
+        let first_child = self.nodes[point as usize].first_child;
+        let next_sibling = self.nodes[parent as usize].first_child;
+        let node = |place: u32| self.nodes.get(place as usize).copied();
+        let below = [(node(first_child), step), (node(next_sibling), 0.0)];
+        let below = below
+            .into_iter()
+            .filter_map(|(node, way)| Some((node?, way)));
+
+        let (mut error, mut reach) = (rounded_up(deviation), radius);
+        for (node, way) in below.clone() {
+            error = error.max(node.error);
+            reach = reach.max(f64::from(node.radius) + way);
+        }
+        let cones = below.map(|(node, _)| node.cone);
+        let node = HierarchyNode {
+            error,
+            // By more than what rounding may do to a test.
+            radius: rounded_up(reach * (1.0 + 1e-6)),
+            cone: PackedCone::around(axis, self.normals.iter().copied(), cones),
+            parent,
+            first_child,
+            next_sibling,
+        };
+        self.nodes[point as usize] = node;
+        self.nodes[parent as usize].first_child = point;
+    }
+}
+
+/// The least `f32` that is not below a number.
+fn rounded_up(number: f64) -> f32 {
+    #[expect(clippy::cast_possible_truncation, reason = "rounded up right after")]
+    let near = number as f32;
+    if f64::from(near) < number {
+        near.next_up()
+    } else {
+        near
+    }
+}
+
+/// How many points have faces that are not one fan.
+fn cut_points(edges: &HalfEdges, point_count: usize) -> usize {
+    let mut fans = vec![0_u8; point_count];
+    let mut is_seen = vec![false; edges.len()];
+    for start in 0..index32(edges.len()) {
+        if is_seen[start as usize] {
+            continue;
+        }
+        let fan = &mut fans[edges.start(start) as usize];
+        *fan = fan.saturating_add(1);
+
+        // One way round, then the other where there is a border.
+        let mut at = start;
+        while at != NONE && !is_seen[at as usize] {
+            is_seen[at as usize] = true;
+            at = edges.twin(previous(at));
+        }
+        let mut twin = if at == NONE { edges.twin(start) } else { NONE };
+        while twin != NONE {
+            is_seen[next(twin) as usize] = true;
+            twin = edges.twin(next(twin));
+        }
+    }
+    fans.iter().filter(|&&fans| fans > 1).count()
+}

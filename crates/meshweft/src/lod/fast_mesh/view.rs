@@ -1,0 +1,174 @@
+//! What a camera sees, and how exactly it has to be drawn.
+
+use std::fmt;
+
+use super::cone::Cone;
+use crate::geometry::double::{cross, dot, scaled, sub};
+
+/// A camera with perspective, in the space of the mesh, and the error that it may see.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Where the eye is.
+    pub eye: [f64; 3],
+    /// What it looks at: another place than the eye.
+    pub target: [f64; 3],
+    /// What is up; not along the line of sight.
+    pub up: [f64; 3],
+    /// From the bottom of the picture to its top, in degrees, above 0 and below 180.
+    pub field_of_view: f64,
+    /// Width and height of the picture, in pixels.
+    pub size: [u32; 2],
+}
+
+/// What of a mesh has to be drawn exactly: made of a [`Camera`], for [`Front::update`](super::Front::update).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraView {
+    eye: [f64; 3],
+    /// The normals of the picture's four sides, towards its inside.
+    sides: Option<[[f64; 3]; 4]>,
+    /// How far the eye has to be from an error of length 1 that may just be seen.
+    reach: f64,
+    sees_back_faces: bool,
+}
+
+/// Why there is nothing to see for a camera.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// A number of the camera is not finite.
+    NotFinite,
+    /// The eye is where it looks, or looks up.
+    NoDirection,
+    /// The field of view, the size or the tolerance is out of its range.
+    OutOfRange,
+}
+
+impl fmt::Display for ViewError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotFinite => "a number of the camera is not finite: give finite numbers",
+            Self::NoDirection => {
+                "the camera has no direction: give a target other than the eye, and an up vector that is not along the line of sight"
+            }
+            Self::OutOfRange => {
+                "the field of view is between 0 and 180 degrees, the picture at least one pixel wide and high, and the tolerance above 0 pixels"
+            }
+        })
+    }
+}
+
+impl std::error::Error for ViewError {}
+
+/// A place where the mesh may be coarser: all that there is of it is in a ball, its normals in a cone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct DetailBound {
+    pub(super) center: [f32; 3],
+    pub(super) radius: f32,
+    /// How far the coarse surface is from the input's vertices.
+    pub(super) error: f32,
+    pub(super) cone: Cone,
+}
+
+impl Camera {
+    /// What it sees, if an error of `tolerance` pixels may be seen. Places outside of the picture and those seen from their
+    /// back may be as coarse as they can.
+    ///
+    /// # Errors
+    /// [`ViewError`] if the camera has no picture.
+    pub fn view(&self, tolerance: f64) -> Result<CameraView, ViewError> {
+        let numbers = self.eye.iter().chain(&self.target).chain(&self.up);
+        let numbers = numbers.chain([&self.field_of_view, &tolerance]);
+        if !numbers.clone().all(|x| x.is_finite()) {
+            return Err(ViewError::NotFinite);
+        }
+        let is_angle = self.field_of_view > 0.0 && self.field_of_view < 180.0;
+        if !is_angle || self.size.contains(&0) || tolerance <= 0.0 {
+            return Err(ViewError::OutOfRange);
+        }
+
+        // The camera's axes.
+        let ahead = unit(sub(self.target, self.eye)).ok_or(ViewError::NoDirection)?;
+        let right = unit(cross(ahead, unit(self.up).ok_or(ViewError::NoDirection)?));
+        let right = right.ok_or(ViewError::NoDirection)?;
+        let up = cross(right, ahead);
+
+        // The sides of the picture go through the eye.
+        let [width, height] = self.size.map(f64::from);
+        let half_height = (0.5 * self.field_of_view.to_radians()).tan();
+        let half_width = half_height * width / height;
+        let side = |axis: [f64; 3], half: f64| {
+            let inside = [0, 1, 2].map(|i| half * ahead[i] + axis[i]);
+            unit(inside).ok_or(ViewError::OutOfRange)
+        };
+        let sides = [
+            side(right, half_width)?,
+            side(scaled(right, -1.0), half_width)?,
+            side(up, half_height)?,
+            side(scaled(up, -1.0), half_height)?,
+        ];
+        let reach = 0.5 * height / half_height / tolerance;
+        Ok(CameraView {
+            eye: self.eye,
+            sides: Some(sides),
+            reach,
+            sees_back_faces: false,
+        })
+    }
+}
+
+fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+    // Relative to the largest, so that no square overflows or vanishes.
+    let largest = a.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    let small = scaled(a, 1.0 / largest);
+    let length = dot(small, small).sqrt();
+    let is_sound = largest > 0.0 && length.is_finite() && length > 1e-12;
+    is_sound.then(|| scaled(small, 1.0 / length))
+}
+
+impl CameraView {
+    /// The same, but all around the eye: what is outside of the picture is drawn as exactly as what is inside.
+    #[must_use]
+    pub fn all_around(self) -> Self {
+        Self {
+            sides: None,
+            ..self
+        }
+    }
+
+    /// The same, but faces seen from their back are drawn as exactly as others: for surfaces with two sides.
+    #[must_use]
+    pub fn with_back_faces(self) -> Self {
+        Self {
+            sees_back_faces: true,
+            ..self
+        }
+    }
+
+    /// The same for another tolerance, in parts of this one.
+    pub(super) fn with_tolerance(self, factor: f64) -> Self {
+        Self {
+            reach: self.reach / factor,
+            ..self
+        }
+    }
+
+    /// Whether a place has to be finer: it can be seen, and so can its error.
+    ///
+    /// If this holds for a place, it holds for every place whose ball, cone and error contain its own.
+    #[inline]
+    pub(super) fn needs(&self, bound: &DetailBound) -> bool {
+        let error = f64::from(bound.error);
+        let radius = f64::from(bound.radius);
+        let way = sub(bound.center.map(f64::from), self.eye);
+        let square = dot(way, way);
+        let seen_within = error * self.reach + radius;
+        if error == 0.0 || square >= seen_within * seen_within {
+            return false;
+        }
+        let is_outside = |side: &[f64; 3]| dot(*side, way) < -radius;
+        if self.sides.iter().flatten().any(is_outside) {
+            return false;
+        }
+        self.sees_back_faces || !bound.cone.is_turned_away(way, square, radius)
+    }
+}

@@ -1,0 +1,116 @@
+//! Collapses for a vertex hierarchy: shallow, and such that each can be undone alone.
+
+use super::fan::{Fan, Move};
+use super::remaining::{FanFace, NONE, RemainingMesh};
+use crate::progressive::records::SidePair;
+
+/// How much a removal above another one costs more.
+const DEPTH_FACTOR: f64 = 2.0;
+/// A removal costs at least as much as if a face of the mean area moved by this part of its size, squared: so flat places
+/// leave level by level too.
+const LEAST_PART: f64 = 1e-8;
+
+/// How many removals are one above the other at each point, at most.
+#[derive(Debug)]
+pub(super) struct HierarchyBalance {
+    heights: Vec<u32>,
+}
+
+impl HierarchyBalance {
+    pub(super) fn new(points: usize) -> Self {
+        Self {
+            heights: vec![0; points],
+        }
+    }
+
+    /// The cost of a move, with what the depth of the hierarchy costs; `mean_area` is that of the faces.
+    pub(super) fn cost(&self, point: u32, found: &Move, mean_area: f64) -> f64 {
+        let height = self.height(point, found.to);
+        let least = LEAST_PART * mean_area * mean_area;
+        let factor = DEPTH_FACTOR.powi(i32::try_from(height).unwrap_or(i32::MAX));
+        (found.cost + least) * factor
+    }
+
+    fn height(&self, point: u32, to: u32) -> u32 {
+        self.heights[point as usize].max(self.heights[to as usize])
+    }
+
+    /// A point went into another.
+    pub(super) fn removed(&mut self, point: u32, to: u32) {
+        self.heights[to as usize] = 1 + self.height(point, to);
+    }
+}
+
+/// Whether the vertices at a point and at the leaving faces can be told when the faces return, from those of the faces around
+/// that they leave: two vertices of the point go to two, and where a seam is, a face beyond has the same vertex.
+pub(super) fn can_return(
+    rest: &mut RemainingMesh<'_>,
+    fan: &Fan,
+    to: u32,
+    pairs: &[SidePair],
+) -> bool {
+    let is_ear = fan.faces.len() == 1;
+    if rest.is_seamless() && !is_ear {
+        return true;
+    }
+    let is_one_to_one = |pair: &SidePair| {
+        pairs
+            .iter()
+            .all(|it| it.to != pair.to || it.from == pair.from)
+    };
+    pairs.iter().all(is_one_to_one)
+        && fan.faces.iter().all(|&face| {
+            let tip = match face.ring {
+                [a, tip] if a == to => tip,
+                [tip, b] if b == to => tip,
+                _ => return true,
+            };
+            vertices_are_around(rest, fan, face, to, tip)
+        })
+}
+
+/// The same of one face that leaves.
+fn vertices_are_around(
+    rest: &mut RemainingMesh<'_>,
+    fan: &Fan,
+    face: FanFace,
+    to: u32,
+    tip: u32,
+) -> bool {
+    let [Some(at_to), Some(at_tip)] = [to, tip].map(|point| face.corner_at(point)) else {
+        return false;
+    };
+    let [side_here, side_to, side_tip] =
+        [face.corner, at_to, at_tip].map(|corner| rest.side(corner));
+
+    // Beyond the edge between the tip and the point.
+    let (mut is_same_to, mut is_same_tip) = (false, false);
+    for other in &fan.faces {
+        if other.corner != face.corner
+            && let Some(corner) = other.corner_at(tip)
+        {
+            is_same_to |= rest.side(other.corner) == side_here;
+            is_same_tip |= rest.side(corner) == side_tip;
+        }
+    }
+
+    // Beyond the edge between the tip and the neighbour, if the surface is a manifold there.
+    let (mut beyond, mut count) = ([NONE; 2], 0);
+    rest.visit(to, |other| {
+        if other.face() != face.face()
+            && let Some(corner) = other.corner_at(tip)
+        {
+            beyond = [other.corner, corner];
+            count += 1;
+        }
+        true
+    });
+    // Wound the other way: the tip comes after the neighbour in one of the two faces, and before it in the other.
+    let comes_after = |[at, tip]: [u32; 2]| tip == at - at % 3 + (at + 1) % 3;
+    if count == 1 && comes_after(beyond) != comes_after([at_to, at_tip]) {
+        let [to_side, tip_side] = beyond.map(|corner| rest.side(corner));
+        is_same_to |= to_side == side_to;
+        is_same_tip |= tip_side == side_tip;
+    }
+    is_same_to && is_same_tip
+}
