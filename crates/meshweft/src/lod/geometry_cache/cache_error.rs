@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum GeometryCacheError {
-    /// A buffer of so many slots cannot be managed.
+    /// The number of slots is out of range.
     Slots {
         /// How many were asked for.
         slots: usize,
@@ -40,7 +40,7 @@ impl GeometryCacheError {
     /// The largest number of slots.
     pub(super) const MOST_SLOTS: usize = 1 << 30;
 
-    /// Refuses a list with a vertex that is not one of so many.
+    /// Refuses a list with a vertex that is not below the count.
     pub(super) fn check(
         list: &'static str,
         vertices: &[u32],
@@ -80,7 +80,7 @@ impl fmt::Display for GeometryCacheError {
                 vertex_count,
             } => write!(
                 f,
-                "{list}, position {position}: there is no vertex {vertex}, of {vertex_count} numbered from 0"
+                "{list}, position {position}: vertex {vertex} does not exist; the {vertex_count} vertices are numbered from 0"
             ),
         }
     }

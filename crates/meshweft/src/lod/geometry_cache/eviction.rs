@@ -32,7 +32,7 @@ pub enum Eviction {
 }
 
 impl Eviction {
-    /// The paper's four, and the default: in the order in which they need ever fewer uploads on most paths.
+    /// The paper's four and the default. On most paths none of them uploads more than the one before.
     pub const ALL: [Self; 5] = [
         Self::Nothing,
         Self::FirstAvailable,
@@ -41,7 +41,7 @@ impl Eviction {
         Self::FinestFirst,
     ];
 
-    /// [`Eviction::QueuedByError`]; the paper's queue has 10 percent of the slots.
+    /// [`Eviction::QueuedByError`]; usual are 10 percent of the slots, as in the paper, and 30 frames.
     #[must_use]
     pub const fn queued_by_error(percent: u32, age: u32) -> Self {
         Self::QueuedByError { percent, age }

@@ -1,6 +1,7 @@
 //! The first slot that was used neither in this frame nor in the last.
 
 use super::policy::SlotPolicy;
+use super::slot_bits::SlotBits;
 
 /// The paper's first available: open slots as bits, in the order of the slots.
 #[derive(Debug)]
@@ -60,46 +61,5 @@ impl SlotPolicy for FirstAvailable {
         self.available
             .take_first()
             .or_else(|| self.fresh.take_first())
-    }
-}
-
-/// A set of slots, a bit each.
-#[derive(Debug)]
-struct SlotBits {
-    words: Vec<u64>,
-    /// No word before this one has a slot.
-    first: usize,
-}
-
-impl SlotBits {
-    fn new(slots: usize) -> Self {
-        Self {
-            words: vec![0; slots.div_ceil(64)],
-            first: 0,
-        }
-    }
-
-    fn insert(&mut self, slot: u32) {
-        let word = slot as usize / 64;
-        self.words[word] |= 1 << (slot % 64);
-        self.first = self.first.min(word);
-    }
-
-    /// Whether it was there.
-    fn remove(&mut self, slot: u32) -> bool {
-        let word = &mut self.words[slot as usize / 64];
-        let was_there = *word >> (slot % 64) & 1 == 1;
-        *word &= !(1 << (slot % 64));
-        was_there
-    }
-
-    fn take_first(&mut self) -> Option<u32> {
-        while *self.words.get(self.first)? == 0 {
-            self.first += 1;
-        }
-        let word = &mut self.words[self.first];
-        let slot = crate::index::index32(64 * self.first) + word.trailing_zeros();
-        *word &= *word - 1;
-        Some(slot)
     }
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::index_slots_error::IndexSlotsError;
 use super::manager::GeometryCache;
 use super::number_set::NumberSet;
+use super::slot_bits::SlotBits;
 use super::slot_indices::{IndexArray, SlotIndices};
 use super::slot_ranges::SlotRanges;
 use super::upload::FrameMode;
@@ -30,6 +31,9 @@ use crate::index::{BLOCK, index32};
 /// assert_eq!(indices.indices(), SlotIndices::Narrow(&[2, 1, 0, 3, 1, 2]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// # Complexity
+/// Space: 4 bytes a face, and at most 37 a place.
 #[derive(Debug, Clone)]
 pub struct IndexSlots {
     /// Of each face its place, if it lives.
@@ -45,7 +49,8 @@ pub struct IndexSlots {
     generation: Option<u64>,
     /// The slots of the corners of what is added.
     slots: Vec<[u32; 3]>,
-    patched: Vec<u32>,
+    /// The places that this frame wrote.
+    patched: SlotBits,
     patch: IndexPatch,
 }
 
@@ -69,7 +74,7 @@ pub struct IndexStatistics {
     pub ranges: usize,
     /// Bytes that these have.
     pub bytes: usize,
-    /// Whether all faces were written again, as the vertices have other places or there are other faces to fit.
+    /// Whether all faces were written again, as the vertices have other places.
     pub is_rewritten: bool,
 }
 
@@ -77,7 +82,7 @@ pub struct IndexStatistics {
 const NONE: u32 = u32::MAX;
 
 impl IndexSlots {
-    /// No face yet, of so many, fewer than 2^32.
+    /// A buffer without faces, for faces with numbers below a count, which is at most 2^32 - 1.
     #[must_use]
     pub fn new(face_count: usize) -> Self {
         Self {
@@ -89,7 +94,7 @@ impl IndexSlots {
             buffer: IndexArray::Narrow(Vec::new()),
             generation: None,
             slots: Vec::new(),
-            patched: Vec::new(),
+            patched: SlotBits::default(),
             patch: IndexPatch::default(),
         }
     }
@@ -101,7 +106,7 @@ impl IndexSlots {
         self
     }
 
-    /// The same that joins ranges with at most so many faces between them.
+    /// The same that joins ranges with at most this number of faces between them.
     #[must_use]
     pub fn with_gap(mut self, faces: u32) -> Self {
         self.patch.ranges.gap = faces;
@@ -115,10 +120,10 @@ impl IndexSlots {
     /// After a frame of [`FrameMode::Passes`] the buffer is empty: draw [`IndexSlots::corners`] by passes.
     ///
     /// # Errors
-    /// If there is no such face, or a vertex of an added one is not active; everything is then as it was.
+    /// If a face does not exist, or a vertex of an added one is not active; everything is then as it was.
     ///
     /// # Complexity
-    /// Time O(n log n) for n faces in the lists. All faces are written where the vertices have other places: in a frame
+    /// Time O(n + faces / 4096) for n faces in the lists. All faces are written where the vertices have other places: in a frame
     /// that is not [`FrameMode::Cached`], and the first one after.
     pub fn update(
         &mut self,
@@ -130,7 +135,6 @@ impl IndexSlots {
         self.check("removed faces", removed.iter().copied())?;
         self.check("added faces", added.iter().map(|&(face, _)| face))?;
         self.look_up(cache, added)?;
-        self.patched.clear();
         // Passes left it empty; whatever is written now, all is written again.
         self.buffer.resize(self.faces.len());
 
@@ -249,6 +253,7 @@ impl IndexSlots {
             self.faces.push(NONE);
             self.corners.push([0; 3]);
             self.buffer.resize(self.faces.len());
+            self.patched.grow(self.faces.len());
             let place = index32(self.faces.len() - 1);
             if self.dead.limit() < self.faces.len() {
                 self.dead.grow();
@@ -289,7 +294,7 @@ impl IndexSlots {
 
     fn write(&mut self, place: u32, slots: [u32; 3]) {
         self.buffer.write(place, slots);
-        self.patched.push(place);
+        self.patched.insert(place);
     }
 
     /// Joins what was patched, or writes all if the places of vertices are others.
@@ -299,15 +304,14 @@ impl IndexSlots {
         let is_rewritten = generation.is_none() || generation != self.generation;
         self.generation = generation;
 
-        let (ranges, count) = (&mut self.patch.ranges, self.faces.len());
+        let count = self.faces.len();
+        let patched = std::iter::from_fn(|| self.patched.take_first());
+        let patched = patched.filter(|&place| (place as usize) < count);
+        self.patch.ranges.replace(patched);
         if is_rewritten {
             let drawn = index32(count) * u32::from(is_drawn);
-            ranges.replace_by_one(0..drawn);
+            self.patch.ranges.replace_by_one(0..drawn);
             self.rewrite(cache, drawn);
-        } else {
-            self.patched.retain(|&place| (place as usize) < count);
-            self.patched.sort_unstable();
-            ranges.replace(self.patched.iter().copied());
         }
 
         let patched = self.patch.ranges.count();
@@ -321,7 +325,7 @@ impl IndexSlots {
         };
     }
 
-    /// Writes so many faces: as wide as needed, degenerate where a face is dead or has a vertex that left.
+    /// Writes the first faces: as wide as needed, degenerate where a face is dead or has a vertex that left.
     fn rewrite(&mut self, cache: &GeometryCache, drawn: u32) {
         self.buffer.restart(cache.place_limit() <= BLOCK);
         self.buffer.resize(drawn as usize);

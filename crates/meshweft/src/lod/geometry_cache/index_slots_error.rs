@@ -36,11 +36,11 @@ impl fmt::Display for IndexSlotsError {
                 face_count,
             } => write!(
                 f,
-                "{list}, position {position}: there is no face {face}, of {face_count} numbered from 0"
+                "{list}, position {position}: face {face} does not exist; the {face_count} faces are numbered from 0"
             ),
             Self::Inactive { face, vertex } => write!(
                 f,
-                "face {face} is added, but its vertex {vertex} is not active: activate it in the same frame, and before"
+                "face {face} is added, but its vertex {vertex} is not active: give it to the cache first, in the same frame"
             ),
         }
     }

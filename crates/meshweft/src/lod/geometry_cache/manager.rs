@@ -52,7 +52,7 @@ pub struct GeometryCache {
 }
 
 impl GeometryCache {
-    /// A cache of so many slots for vertices of these errors, with a policy by name.
+    /// A cache with this number of slots, for vertices of these errors, with a policy by name.
     ///
     /// # Errors
     /// If there are fewer than 3 slots or more than 2^30, or an error of a vertex is negative or not a number.
@@ -110,7 +110,7 @@ impl GeometryCache {
         self
     }
 
-    /// The same cache that joins ranges of the upload with at most so many slots between them. The caller sends what
+    /// The same cache that joins ranges of the upload with at most this number of slots between them. The caller sends what
     /// these have: [`GeometryCache::vertex`].
     #[must_use]
     pub fn with_gap(mut self, slots: u32) -> Self {
@@ -124,7 +124,7 @@ impl GeometryCache {
     /// Time O(active vertices of this frame and the last + n log n) for n inserts.
     ///
     /// # Errors
-    /// If there is no such vertex; everything is then as it was.
+    /// If a vertex does not exist; everything is then as it was.
     pub fn set_active(&mut self, active: &[u32]) -> Result<&Upload, GeometryCacheError> {
         self.check("active vertices", active)?;
         self.start_frame();
@@ -140,7 +140,7 @@ impl GeometryCache {
         Ok(self.finish_frame())
     }
 
-    /// The next frame, of an explicit front: these vertices become active, these are active no more.
+    /// The next frame, of an explicit front: the first vertices become active, the second ones inactive.
     ///
     /// The lists are sets: to add what is active, or to remove what is not, changes nothing. A vertex in both is active.
     ///
@@ -149,7 +149,7 @@ impl GeometryCache {
     /// [`FrameMode::Cached`], and every frame that is not: O(active) beside.
     ///
     /// # Errors
-    /// If there is no such vertex; everything is then as it was.
+    /// If a vertex does not exist; everything is then as it was.
     pub fn change(
         &mut self,
         added: &[u32],

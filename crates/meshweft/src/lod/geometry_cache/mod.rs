@@ -46,6 +46,7 @@ mod passes;
 mod policy;
 mod queued_by_error;
 mod recorded_path;
+mod slot_bits;
 mod slot_indices;
 mod slot_ranges;
 mod slot_table;

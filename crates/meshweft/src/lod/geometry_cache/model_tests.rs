@@ -343,7 +343,9 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     ] {
         let text = error.to_string();
         assert!(
-            text.ends_with("position 1: there is no vertex 4, of 4 numbered from 0"),
+            text.ends_with(
+                "position 1: vertex 4 does not exist; the 4 vertices are numbered from 0"
+            ),
             "{text}"
         );
     }

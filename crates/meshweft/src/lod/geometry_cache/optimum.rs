@@ -8,7 +8,7 @@ use super::recorded_path::RecordedPath;
 const NEVER: u32 = u32::MAX;
 
 impl RecordedPath {
-    /// The fewest inserts with which any policy draws the path from so many slots; `None` if a frame has more active
+    /// The fewest inserts with which any policy draws the path from these slots; `None` if a frame has more active
     /// vertices.
     ///
     /// L. A. Belady: *A Study of Replacement Algorithms for a Virtual-Storage Computer*, IBM Systems Journal 5 (2),

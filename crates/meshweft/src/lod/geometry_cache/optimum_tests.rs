@@ -118,7 +118,7 @@ impl Cells {
         self.cells.iter().map(|&[.., size]| size).collect()
     }
 
-    /// A path of so many frames, of an eye and where it looks, by the time from 0 to 1.
+    /// A path of an eye and where it looks, by the time from 0 to 1.
     fn path(&self, frames: u16, eye: impl Fn(f32) -> ([f32; 2], f32)) -> RecordedPath {
         let mut path = RecordedPath::new(self.cells.len());
         for frame in 0..frames {

@@ -141,7 +141,7 @@ mod tests {
     use super::super::{Eviction, FrameMode, GeometryCache};
     use crate::random::SplitMix64;
 
-    /// Draws all passes on a card of so many slots, and returns how many vertices were sent.
+    /// Draws all passes on a card, and returns how many vertices were sent.
     fn draw(cache: &mut GeometryCache, faces: &[[u32; 3]], card: &mut Vec<Option<u32>>) -> usize {
         card.resize(cache.slots(), None);
         let (mut is_drawn, mut sent) = (vec![false; faces.len()], 0);

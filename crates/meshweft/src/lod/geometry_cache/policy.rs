@@ -11,10 +11,10 @@ pub trait SlotPolicy: Debug + Send + Sync {
     /// vertex.
     fn open(&mut self, slot: u32, error: Option<f32>, frame: u32);
 
-    /// An open slot is open no more: its vertex is active again.
+    /// An open slot is closed: its vertex is active again.
     fn close(&mut self, slot: u32);
 
-    /// An open slot, which is open no more. [`GeometryCache`](super::GeometryCache) asks only while there is one; an
+    /// An open slot, which is closed by that. [`GeometryCache`](super::GeometryCache) asks only while there is one; an
     /// answer that is none of them is overruled.
     fn take(&mut self, frame: u32) -> Option<u32>;
 }

@@ -36,7 +36,7 @@ pub struct RecordedPath {
 }
 
 impl RecordedPath {
-    /// No frame yet, of so many vertices, fewer than 2^32.
+    /// A path without frames, of vertices with numbers below a count, which is at most 2^32 - 1.
     #[must_use]
     pub fn new(vertices: usize) -> Self {
         Self {
@@ -51,7 +51,7 @@ impl RecordedPath {
     /// Adds a frame in which exactly these vertices are active.
     ///
     /// # Errors
-    /// If there is no such vertex; nothing is then added.
+    /// If a vertex does not exist; nothing is then added.
     pub fn push_active(&mut self, active: &[u32]) -> Result<(), GeometryCacheError> {
         GeometryCacheError::check("active vertices", active, self.front.limit())?;
         self.front.restart();
@@ -67,11 +67,11 @@ impl RecordedPath {
         Ok(())
     }
 
-    /// Adds a frame by what becomes active and what is active no more, read as by
+    /// Adds a frame by what becomes active and what becomes inactive, read as by
     /// [`GeometryCache::change`](super::GeometryCache::change).
     ///
     /// # Errors
-    /// If there is no such vertex; nothing is then added.
+    /// If a vertex does not exist; nothing is then added.
     pub fn push_change(
         &mut self,
         added: &[u32],

@@ -72,7 +72,7 @@ impl IndexArray {
         }
     }
 
-    /// Goes on with, or ends at, so many faces; what comes is degenerate.
+    /// Makes the number of faces this one; those that come are degenerate.
     #[inline]
     pub(super) fn resize(&mut self, faces: usize) {
         match self {

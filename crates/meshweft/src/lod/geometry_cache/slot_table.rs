@@ -129,7 +129,9 @@ impl SlotTable {
     fn overrule(&mut self) -> u32 {
         self.overruled += 1;
         let first = self.slots.iter().position(|slot| slot.is_open);
-        let slot = index32(first.expect("no more vertices are held than there are slots"));
+        let slot = index32(
+            first.expect("a slot is open while fewer vertices are held than there are slots"),
+        );
         self.policy.close(slot);
         slot
     }

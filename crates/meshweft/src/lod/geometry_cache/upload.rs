@@ -43,7 +43,7 @@ pub struct FrameStatistics {
     pub active: usize,
     /// Vertices that became active.
     pub added: usize,
-    /// Vertices that are active no more.
+    /// Vertices that became inactive.
     pub removed: usize,
     /// Vertices that are uploaded.
     pub inserts: usize,
@@ -56,7 +56,7 @@ pub struct FrameStatistics {
 }
 
 impl FrameStatistics {
-    /// How many bytes the ranges have, at so many a vertex.
+    /// How many bytes the ranges have, with vertices of this size.
     #[must_use]
     pub fn bytes(&self, vertex_size: usize) -> u64 {
         self.sent as u64 * vertex_size as u64
