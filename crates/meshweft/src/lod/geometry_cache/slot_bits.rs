@@ -60,3 +60,34 @@ impl SlotBits {
         Some(slot)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::SlotBits;
+    use crate::random::SplitMix64;
+
+    #[test]
+    fn slots_come_by_number() {
+        for slots in [1, 64, 65, 4096, 4097, 20_000] {
+            let random = &mut SplitMix64(slots as u64);
+            let (mut bits, mut set) = (SlotBits::new(slots / 2), BTreeSet::new());
+            bits.grow(slots);
+            bits.grow(slots / 3);
+            for _ in 0..3000 {
+                let slot = u32::try_from(random.below(slots)).unwrap();
+                match random.below(4) {
+                    0 => assert_eq!(bits.remove(slot), set.remove(&slot)),
+                    1 => assert_eq!(bits.take_first(), set.pop_first()),
+                    _ => {
+                        bits.insert(slot);
+                        set.insert(slot);
+                    }
+                }
+            }
+            let all: Vec<u32> = std::iter::from_fn(|| bits.take_first()).collect();
+            assert_eq!(all, Vec::from_iter(set));
+        }
+    }
+}
