@@ -43,15 +43,17 @@ impl Touched {
         }
     }
 
-    /// A number is touched; `was_there` counts if it is the first time.
+    /// A number is touched; `was_there` counts if it is the first time, which is returned.
     #[inline]
-    pub(super) fn touch(&mut self, number: u32, was_there: bool) {
+    pub(super) fn touch(&mut self, number: u32, was_there: bool) -> bool {
         let word = &mut self.is_listed[number as usize / 64];
         let bit = 1 << (number % 64);
-        if *word & bit == 0 {
+        let is_first = *word & bit == 0;
+        if is_first {
             *word |= bit;
             self.list.push((number, was_there));
         }
+        is_first
     }
 
     /// Empties it; gives each number, and whether it was there.

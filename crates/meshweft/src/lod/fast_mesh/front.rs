@@ -2,6 +2,7 @@
 
 use super::changes::{FrontChanges, Touched};
 use super::hierarchy::VertexHierarchy;
+use super::queues::BudgetQueues;
 use super::tested::TestedPoints;
 use super::view::CameraView;
 use crate::topology::half_edges::NONE;
@@ -12,26 +13,31 @@ use crate::topology::half_edges::NONE;
 /// active points alone, not on how they came to be active.
 #[derive(Debug, Clone)]
 pub struct Front {
-    hierarchy: VertexHierarchy,
+    pub(super) hierarchy: VertexHierarchy,
     /// Of each point its place in one of the two lists, or [`NONE`].
-    places: Vec<u32>,
+    pub(super) places: Vec<u32>,
     /// Points that may leave and have not.
-    active: TestedPoints,
+    pub(super) active: TestedPoints,
     /// Points that left, next below an active one.
-    waiting: TestedPoints,
+    pub(super) waiting: TestedPoints,
     face_count: usize,
     vertex_count: usize,
     touched_points: Touched,
     touched_faces: Touched,
     changes: FrontChanges,
     /// Points that are to be split, each after those above it in the stack.
-    to_split: Vec<u32>,
+    pub(super) to_split: Vec<u32>,
     /// Points that no other needs any more.
-    to_collapse: Vec<u32>,
+    pub(super) to_collapse: Vec<u32>,
+    /// Points that are new in one of the two lists.
+    pub(super) moved: Vec<u32>,
+    /// Points that were counted.
+    pub(super) looked_at: Touched,
+    pub(super) queues: BudgetQueues,
 }
 
 /// Places of points that wait have this bit.
-const WAITING: u32 = 1 << 31;
+pub(super) const WAITING: u32 = 1 << 31;
 /// In the numbers of points that need one, above the four bits of the flags.
 const ONE_NEED: u32 = 1 << 4;
 
@@ -54,6 +60,9 @@ impl Front {
             changes: FrontChanges::default(),
             to_split: Vec::new(),
             to_collapse: Vec::new(),
+            moved: Vec::new(),
+            looked_at: Touched::new(points),
+            queues: BudgetQueues::default(),
             hierarchy,
         };
         for root in 0..front.hierarchy.roots {
@@ -90,7 +99,7 @@ impl Front {
 
     /// Whether a point is active.
     #[inline]
-    fn is_active(&self, point: u32) -> bool {
+    pub(super) fn is_active(&self, point: u32) -> bool {
         !self.hierarchy.may_leave(point) || self.places[point as usize] < WAITING
     }
 
@@ -134,25 +143,28 @@ impl Front {
     /// # Panics
     /// If `hysteresis` is not above 0 and at most 1.
     pub fn update(&mut self, view: &CameraView, hysteresis: f64) -> &FrontChanges {
-        assert!(
-            hysteresis > 0.0 && hysteresis <= 1.0,
-            "a part of the tolerance"
-        );
-        self.changes.clear();
+        self.begin(hysteresis);
         self.refine(view);
         self.coarsen(&view.with_tolerance(hysteresis));
-        self.settle();
-        &self.changes
+        self.settle()
     }
 
     /// Makes every point active: the mesh of the input.
     pub fn refine_fully(&mut self) -> &FrontChanges {
-        self.changes.clear();
+        self.begin(1.0);
         for point in self.hierarchy.leaving_points() {
             self.split(point);
         }
-        self.settle();
-        &self.changes
+        self.settle()
+    }
+
+    /// Nothing changed yet.
+    pub(super) fn begin(&mut self, hysteresis: f64) {
+        let is_part = hysteresis > 0.0 && hysteresis <= 1.0;
+        assert!(is_part, "hysteresis is above 0 and at most 1");
+        self.changes.clear();
+        self.moved.clear();
+        self.to_collapse.clear();
     }
 
     fn refine(&mut self, view: &CameraView) {
@@ -168,26 +180,24 @@ impl Front {
             // What a collapse sets free is tried at once, as it may have been passed.
             self.to_collapse.push(point);
             while let Some(point) = self.to_collapse.pop() {
-                if self.can_collapse(point) && !view.needs(&self.bound_of(point)) {
+                if self.can_collapse(point)
+                    && !view.needs(self.active.bound(self.places[point as usize]))
+                {
                     self.collapse(point);
                 }
             }
         }
     }
 
-    fn bound_of(&self, point: u32) -> super::view::DetailBound {
-        self.active.entries()[self.places[point as usize] as usize].0
-    }
-
     /// Whether a point is active and no other needs it.
-    fn can_collapse(&self, point: u32) -> bool {
+    pub(super) fn can_collapse(&self, point: u32) -> bool {
         self.hierarchy.may_leave(point)
             && self.places[point as usize] < WAITING
             && self.hierarchy.needs[point as usize] < ONE_NEED
     }
 
     /// Makes a point active, and before it those that it needs.
-    fn split(&mut self, point: u32) {
+    pub(super) fn split(&mut self, point: u32) {
         self.to_split.push(point);
         while let Some(&point) = self.to_split.last() {
             if self.is_active(point) {
@@ -210,6 +220,7 @@ impl Front {
         }
         let bound = self.hierarchy.bound(point);
         self.active.add(point, bound, &mut self.places, 0);
+        self.moved.push(point);
         self.touched_points.touch(point, false);
         self.count_needs(point, true);
 
@@ -231,7 +242,7 @@ impl Front {
     }
 
     /// A point leaves that no other needs.
-    fn collapse(&mut self, point: u32) {
+    pub(super) fn collapse(&mut self, point: u32) {
         self.vertex_count -= self.hierarchy.vertices_of(point).count();
         let edge = self.hierarchy.edge(point);
         for face in edge.faces() {
@@ -255,7 +266,7 @@ impl Front {
         self.wait(point);
     }
 
-    fn is_waiting(&self, point: u32) -> bool {
+    pub(super) fn is_waiting(&self, point: u32) -> bool {
         let place = self.places[point as usize];
         place != NONE && place >= WAITING
     }
@@ -265,6 +276,7 @@ impl Front {
         if point != NONE && self.places[point as usize] == NONE {
             let bound = self.hierarchy.bound(point);
             self.waiting.add(point, bound, &mut self.places, WAITING);
+            self.moved.push(point);
         }
     }
 
@@ -289,8 +301,7 @@ impl Front {
     }
 
     /// Says what changed in all.
-    fn settle(&mut self) {
-        self.to_collapse.clear();
+    pub(super) fn settle(&mut self) -> &FrontChanges {
         let mut touched = std::mem::take(&mut self.touched_points);
         let mut changes = std::mem::take(&mut self.changes);
         touched.drain(|point, was_active| {
@@ -315,5 +326,6 @@ impl Front {
         });
         self.touched_faces = touched;
         self.changes = changes;
+        &self.changes
     }
 }

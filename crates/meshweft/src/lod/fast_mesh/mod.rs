@@ -21,6 +21,7 @@
 //!
 //! Read `links` first, one collapse and its split; then `replay`, how each comes about, and `front`.
 
+mod budget;
 mod build;
 mod changes;
 mod cone;
@@ -29,12 +30,14 @@ mod front;
 mod hierarchy;
 mod links;
 mod numbering;
+mod queues;
 mod replay;
 mod tested;
 #[cfg(test)]
 mod tests;
 mod view;
 
+pub use budget::FrameBudget;
 pub use build::FastMesh;
 pub use changes::FrontChanges;
 pub use front::Front;

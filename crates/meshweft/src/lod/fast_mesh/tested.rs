@@ -18,8 +18,9 @@ impl TestedPoints {
         self.entries.iter().map(|&(_, point)| point)
     }
 
-    pub(super) fn entries(&self) -> &[(DetailBound, u32)] {
-        &self.entries
+    /// What the test needs of the point at a place.
+    pub(super) fn bound(&self, place: u32) -> &DetailBound {
+        &self.entries[place as usize].0
     }
 
     /// Begins again.

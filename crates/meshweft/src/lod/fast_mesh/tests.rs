@@ -337,3 +337,94 @@ fn errors_balls_and_cones_contain_those_below() {
         }
     }
 }
+
+#[test]
+fn without_limits_a_budget_changes_nothing() {
+    let mut random = SplitMix64(5);
+    for (name, mesh, attributes) in examples() {
+        let hierarchy = FastMesh::default().build(&mesh, &attributes).unwrap();
+        let mut walked = Front::new(hierarchy.clone());
+        for case in 0..20 {
+            let view = camera(&mut random, 25.0);
+            let (_, is_done) = walked.update_within(&view, 1.0, FrameBudget::default());
+            assert!(is_done);
+            assert!(
+                active(&walked) == closure(&hierarchy, &view),
+                "{name} {case}"
+            );
+        }
+    }
+}
+
+#[test]
+fn few_changes_a_frame_come_to_the_same_in_the_end() {
+    let mut random = SplitMix64(6);
+    for (name, mesh, attributes) in examples() {
+        let hierarchy = FastMesh::default().build(&mesh, &attributes).unwrap();
+        let mut walked = Front::new(hierarchy.clone());
+        for case in 0..5 {
+            let view = camera(&mut random, 25.0);
+            let budget = FrameBudget {
+                changes: 7,
+                ..FrameBudget::default()
+            };
+            let mut frames = 0;
+            while !walked.update_within(&view, 1.0, budget).1 {
+                frames += 1;
+                assert!(frames < 1000, "{name} {case}");
+            }
+            check_surface(&walked);
+            assert!(
+                active(&walked) == closure(&hierarchy, &view),
+                "{name} {case}"
+            );
+        }
+    }
+}
+
+/// The largest excess of a point that is not active, of those that a front could split next.
+fn largest_left(front: &Front, hierarchy: &VertexHierarchy, view: &CameraView) -> f64 {
+    let active = active(front);
+    let left = hierarchy.leaving_points().filter(|it| !active.contains(it));
+    left.map(|point| view.urgency(&hierarchy.bound(point)).excess())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_budget_of_vertices_is_never_exceeded_and_spent_where_errors_are_seen_most() {
+    let mut random = SplitMix64(7);
+    for (name, mesh, attributes) in examples() {
+        let hierarchy = FastMesh::default().build(&mesh, &attributes).unwrap();
+        let roots = Front::new(hierarchy.clone()).vertex_count();
+        let mut walked = Front::new(hierarchy.clone());
+        for case in 0..30 {
+            let view = camera(&mut random, 25.0);
+            let vertices = roots + random.below(mesh.vertex_count() / 2);
+            let budget = FrameBudget {
+                vertices,
+                ..FrameBudget::default()
+            };
+            assert!(walked.update_within(&view, 1.0, budget).1);
+            check_surface(&walked);
+            assert!(walked.vertex_count() <= vertices, "{name} {case}");
+
+            let left = largest_left(&walked, &hierarchy, &view);
+            if left <= 1.0 {
+                assert!(
+                    active(&walked) == closure(&hierarchy, &view),
+                    "{name} {case}"
+                );
+                continue;
+            }
+            // A front with the point that is seen most of those left would have more vertices.
+            let finer = view.with_tolerance(left * (1.0 - 1e-9));
+            let needed = closure(&hierarchy, &finer);
+            let vertices_of = |point: &u32| hierarchy.vertices_of(*point).count();
+            let count = roots + needed.iter().map(vertices_of).sum::<usize>();
+            assert!(
+                left.is_infinite() || count > vertices,
+                "{name} {case}: {left}"
+            );
+        }
+    }
+}

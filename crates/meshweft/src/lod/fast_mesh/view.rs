@@ -1,5 +1,6 @@
 //! What a camera sees, and how exactly it has to be drawn.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use super::cone::Cone;
@@ -170,5 +171,59 @@ impl CameraView {
             return false;
         }
         self.sees_back_faces || !bound.cone.is_turned_away(way, square, radius)
+    }
+
+    /// How large the error of a place is seen.
+    pub(super) fn urgency(&self, bound: &DetailBound) -> Urgency {
+        let hidden = Urgency {
+            excess: 0.0,
+            error: bound.error,
+        };
+        let anyhow = Self {
+            reach: f64::INFINITY,
+            ..*self
+        };
+        if !anyhow.needs(bound) {
+            return hidden;
+        }
+        let way = sub(bound.center.map(f64::from), self.eye);
+        let distance = dot(way, way).sqrt() - f64::from(bound.radius);
+        let excess = match distance > 0.0 {
+            true => f64::from(bound.error) * self.reach / distance,
+            false => f64::INFINITY,
+        };
+        Urgency { excess, ..hidden }
+    }
+}
+
+/// How large an error is seen: what a place makes more urgent to be finer than another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Urgency {
+    /// In tolerances; infinite where the eye is inside.
+    excess: f64,
+    /// As a length, which decides between places of equal excess.
+    error: f32,
+}
+
+impl Urgency {
+    /// In tolerances.
+    #[cfg(test)]
+    pub(super) fn excess(self) -> f64 {
+        self.excess
+    }
+
+    /// Whether it is more than a number of tolerances.
+    pub(super) fn is_above(self, tolerances: f64) -> bool {
+        self.excess > tolerances
+    }
+
+    /// Whether it is less than a part of another one.
+    pub(super) fn is_below(self, other: Self, part: f64) -> bool {
+        self.excess < part * other.excess
+    }
+
+    pub(super) fn order(self, other: Self) -> Ordering {
+        let by_excess = self.excess.total_cmp(&other.excess);
+        by_excess.then(self.error.total_cmp(&other.error))
     }
 }

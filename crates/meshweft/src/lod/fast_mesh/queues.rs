@@ -1,0 +1,42 @@
+//! Points by how urgently they have to be active.
+
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+use super::view::Urgency;
+
+/// A point with how urgently it has to be active.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Queued {
+    pub(super) urgency: Urgency,
+    pub(super) point: u32,
+}
+
+impl PartialEq for Queued {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Queued {}
+
+impl PartialOrd for Queued {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Queued {
+    fn cmp(&self, other: &Self) -> Ordering {
+        // Among equals coarse points come first: they have low numbers.
+        let by_urgency = self.urgency.order(other.urgency);
+        by_urgency.then(other.point.cmp(&self.point))
+    }
+}
+
+/// Points that may be split, the most urgent first, and such that may be collapsed, the least urgent first.
+#[derive(Debug, Clone, Default)]
+pub(super) struct BudgetQueues {
+    pub(super) splits: BinaryHeap<Queued>,
+    pub(super) collapses: BinaryHeap<Reverse<Queued>>,
+}
