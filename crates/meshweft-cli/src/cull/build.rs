@@ -1,6 +1,8 @@
 //! `cull build`: files with culling tables.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::Read;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -8,6 +10,7 @@ use anyhow::Result;
 use clap::Args;
 use meshweft::files::{Document, Format};
 use meshweft::operations::{self, CullOptions, CullOutcome, CullReport};
+use meshweft::order::Target;
 
 use crate::run::arguments::{Reading, Run};
 use crate::run::jobs::{Job, Jobs};
@@ -25,9 +28,23 @@ pub(super) struct Build {
     inputs: Vec<PathBuf>,
     #[command(flatten)]
     run: Run,
+    /// The eyes that clusters are made for: near, far or orthographic, all around each mesh, or those that a file lists
+    /// [default: all around, at 2, 4 and 10 radii of the mesh and orthographic]
+    ///
+    /// What an eye is expected to cost is the mean over them; none is shown less than it sees. A file is a JSON array of 1 to 448
+    /// camera positions in the space of the meshes, such as [[0, 1.5, 4], [2, 1.5, 0]]; [x, y, z, 0] is a direction towards
+    /// the viewer. A position that comes more often weighs more.
+    #[arg(long, value_name = "EYES", display_order = 1)]
+    eyes: Option<String>,
+    /// Cost of one more visible face, in transformed vertices: with more, clusters fit what is seen more tightly
+    #[arg(long, value_name = "COST", display_order = 1, default_value_t = CullOptions::default().clusters.face_cost, value_parser = cost)]
+    face_cost: f32,
     /// Cost of one more visible cluster, in transformed vertices: with more, clusters are fewer and larger
     #[arg(long, value_name = "COST", display_order = 1, default_value_t = CullOptions::default().clusters.draw_cost, value_parser = cost)]
     draw_cost: f32,
+    /// What the faces of each cluster are ordered for: a cache, a GPU or universal, as --cache of optimize
+    #[arg(long, value_name = "MODEL", display_order = 1, default_value_t = CullOptions::default().clusters.optimizer.target)]
+    cache: Target,
     /// For formats other than .gltf and .glb: keep only names of meshes, positions and faces; without this, a file that has
     /// more is refused, and the message lists it
     #[arg(long, display_order = 2)]
@@ -45,11 +62,52 @@ fn cost(text: &str) -> Result<f32, String> {
         .ok_or_else(|| "a number from 0 on".to_owned())
 }
 
+impl Build {
+    /// The flags for the library, checked.
+    fn options(&self) -> Result<CullOptions, Usage> {
+        let mut options = CullOptions::default();
+        options.drop_attributes = self.drop_attributes;
+        if let Some(eyes) = &self.eyes {
+            set_eyes(&mut options, eyes)?;
+        }
+        options.clusters.face_cost = self.face_cost;
+        options.clusters.draw_cost = self.draw_cost;
+        options.clusters.optimizer.target = self.cache;
+        let checked = options.check();
+        checked.map_err(|error| Usage(error.to_string()))?;
+        Ok(options)
+    }
+}
+
+/// A list of eyes is not longer.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// Takes the eyes that `--eyes` names, or those of the file.
+fn set_eyes(options: &mut CullOptions, text: &str) -> Result<(), Usage> {
+    if let Some(eyes) = operations::eyes_by_name(text) {
+        options.clusters.eyes = eyes;
+        return Ok(());
+    }
+    let refused = |what: String| Usage(format!("--eyes {text}: {what}"));
+    let mut list = String::new();
+    let read = File::open(text).and_then(|file| file.take(MOST_BYTES).read_to_string(&mut list));
+    let bytes = read.map_err(|error| {
+        refused(format!(
+            "neither near, far, orthographic nor a file of eyes: {error}"
+        ))
+    })?;
+    if bytes as u64 == MOST_BYTES {
+        return Err(refused(format!("the file has {MOST_BYTES} bytes or more")));
+    }
+    let eyes = operations::eyes_of_json(&list);
+    options.clusters.eyes = eyes.map_err(|error| refused(error.to_string()))?;
+    Ok(())
+}
+
 /// Adds tables to each file.
 pub(super) fn run(arguments: &Build) -> Result<()> {
-    let mut options = CullOptions::default();
-    options.drop_attributes = arguments.drop_attributes;
-    options.clusters.draw_cost = arguments.draw_cost;
+    // What cannot be done is reported before a file is touched.
+    let options = arguments.options()?;
     let jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
     let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
     let work = |job: &Job| build(job, &jobs, &options, shows_bar, arguments);

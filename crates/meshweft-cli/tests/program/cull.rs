@@ -120,6 +120,101 @@ fn a_table_is_built_counted_and_kept() {
 }
 
 #[test]
+fn clusters_are_made_for_eyes_and_caches() {
+    let folder = Folder::new("cull-eyes");
+    folder.write("ball.off", ball_off());
+    folder.write("cameras.json", "[[0, 0, 3], [0.5, 0, 3],\n [0, 0, 1, 0]]");
+    let build = |flags: &[&str], to: &str| {
+        let arguments = [&["cull", "build", "ball.off", "--json", "-o", to], flags].concat();
+        let run = folder.run(&arguments);
+        assert_eq!(run.code(), 0, "{}", run.err());
+        run.json()
+    };
+    // Faces drawn from 1.5 radii, draws of an orthographic view.
+    let looked_at = |file: &str| {
+        let report = folder.run(&["cull", "stats", file, "--json"]).json();
+        let views = report["total"]["views"].as_array().unwrap().clone();
+        for view in &views {
+            assert_eq!(view["front_faces_rejected"], 0, "{file}: {view}");
+        }
+        [&views[0]["drawn"], &views[4]["draws"]].map(|figure| figure.as_f64().unwrap())
+    };
+
+    // Who looks from near draws fewer faces if clusters are made for that, an orthographic view takes fewer draws.
+    let near = build(&["--eyes", "near"], "near.glb");
+    assert_eq!(near["eyes"][0]["distance"], 1.25);
+    let far = build(&["--eyes", "orthographic"], "far.glb");
+    let all = serde_json::json!([{"distance": null, "count": 256}]);
+    assert_eq!(far["eyes"], all);
+    let [near, far] = ["near.glb", "far.glb"].map(looked_at);
+    assert!(near[0] < far[0] && far[1] < near[1], "{near:?} {far:?}");
+
+    // Cameras on one side: the other side is not worth a draw.
+    let report = build(&["--eyes", "cameras.json"], "cameras.glb");
+    assert_eq!(report["eyes"].as_array().unwrap().len(), 3);
+    assert_eq!(report["eyes"][1], serde_json::json!([0.5, 0.0, 3.0, 1.0]));
+    let everywhere = build(&[], "usual.glb");
+    assert_eq!(everywhere["eyes"].as_array().unwrap().len(), 4);
+    assert_ne!(folder.read("cameras.glb"), folder.read("usual.glb"));
+    looked_at("cameras.glb");
+
+    // Faces that cost more are fewer, so clusters are more.
+    let clusters = |cost: &str| {
+        let report = build(&["--face-cost", cost], "cost.glb");
+        assert_eq!(report["face_cost"], cost.parse::<f64>().unwrap());
+        report["total"]["clusters"].as_u64().unwrap()
+    };
+    assert!(clusters("50") > clusters("0"));
+
+    // The order inside is for a cache, by the names that optimize has.
+    let misses = |cache: &str| {
+        let flags = ["--cache", cache, "--draw-cost", "1000"];
+        let report = build(&flags, "cache.glb");
+        assert_eq!(report["cache"], cache);
+        let run = folder.run(&["inspect", "cache.glb", "--json", "--cache", "fifo:8"]);
+        run.json()["total"]["misses"]["fifo:8"].as_u64().unwrap()
+    };
+    assert!(misses("fifo:8") < misses("fifo:64"));
+    misses("universal");
+    misses("batch:32/0/126");
+}
+
+#[test]
+fn eyes_and_caches_that_are_none_are_refused() {
+    let folder = Folder::new("cull-no-eyes");
+    folder.write("ball.off", ball_off());
+    let refused = |flags: &[&str], expected: &str| {
+        let arguments = [&["cull", "build", "ball.off", "-o", "ball.glb"], flags].concat();
+        let run = folder.run(&arguments);
+        assert_eq!(run.code(), 2, "{}", run.err());
+        assert!(run.err().contains(expected), "{}", run.err());
+        assert!(!folder.0.join("ball.glb").exists());
+    };
+    refused(
+        &["--eyes", "nera"],
+        "--eyes nera: neither near, far, orthographic nor a file of eyes: ",
+    );
+    for (text, expected) in [
+        ("[[0, 0, 3],\n [0, true]]", "line 2 column "),
+        ("[[0, 0, 3], [0, 1]]", "entry 2 is not three numbers"),
+        ("[]", "it lists 0 eyes: give 1 to 448"),
+        ("near", "such as [[0, 1.5, 4], [2, 1.5, 0]]"),
+    ] {
+        folder.write("eyes.json", text);
+        refused(&["--eyes", "eyes.json"], "--eyes eyes.json: ");
+        refused(&["--eyes", "eyes.json"], expected);
+    }
+    folder.write("eyes.json", " ".repeat(1 << 20));
+    refused(
+        &["--eyes", "eyes.json"],
+        "the file has 1048576 bytes or more",
+    );
+    refused(&["--face-cost=-1"], "a number from 0 on");
+    refused(&["--cache", "fifo:1025"], "caches of 3 to 1024 vertices");
+    refused(&["--cache", "lru"], "--cache <MODEL>");
+}
+
+#[test]
 fn a_table_of_other_faces_is_found_out() {
     let folder = Folder::new("cull-wrong");
     folder.write("ball.off", ball_off());

@@ -27,6 +27,13 @@ impl Eye {
         }
     }
 
+    /// Whether it is somewhere, or a direction; otherwise everything is drawn for it.
+    #[must_use]
+    pub fn says_something(self) -> bool {
+        let is_nowhere = |([x, y, z], w): ([f64; 3], f64)| w == 0.0 && [x, y, z] == [0.0; 3];
+        self.parts().is_some_and(|parts| !is_nowhere(parts))
+    }
+
     /// The first three coordinates, and the fourth; `None` if they say nothing.
     pub(super) fn parts(self) -> Option<([f64; 3], f64)> {
         let [x, y, z, w] = self.point.map(f64::from);

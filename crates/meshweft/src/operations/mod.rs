@@ -59,8 +59,9 @@ pub use compress::{
 pub use counts::{Counts, USUAL_CACHES};
 #[cfg(feature = "files")]
 pub use cull::{
-    CullError, CullOptions, CullOutcome, CullReport, CullStatsOptions, CullStatsReport, CulledMesh,
-    CullingFigures, ViewSums, cull_build, cull_stats,
+    CullError, CullEyesError, CullOptions, CullOptionsError, CullOutcome, CullReport,
+    CullStatsOptions, CullStatsReport, CulledMesh, CullingFigures, ViewSums, cull_build,
+    cull_stats, eyes_by_name, eyes_of_json,
 };
 pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};
 #[cfg(feature = "files")]

@@ -75,12 +75,7 @@ impl Options {
     /// # Errors
     /// [`OptionsError`] if they cannot.
     pub fn check(&self) -> Result<(), OptionsError> {
-        match self.target {
-            Target::Cache(cache) if cache.size() > MAX_CACHE_SIZE => {
-                return Err(OptionsError::CacheTooLarge { cache });
-            }
-            _ => {}
-        }
+        check_target(self.target)?;
         if self.greedy.is_none() {
             return Ok(());
         }
@@ -92,6 +87,16 @@ impl Options {
             true => Ok(()),
             false => Err(OptionsError::GreedyIsOnePass),
         }
+    }
+}
+
+/// Whether documents are ordered for it.
+pub(super) fn check_target(target: Target) -> Result<(), OptionsError> {
+    match target {
+        Target::Cache(cache) if cache.size() > MAX_CACHE_SIZE => {
+            Err(OptionsError::CacheTooLarge { cache })
+        }
+        _ => Ok(()),
     }
 }
 

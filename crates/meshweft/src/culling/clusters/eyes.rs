@@ -12,7 +12,7 @@ pub enum SampledEyes {
     /// infinite distance for orthographic views. More eyes at a distance weigh more.
     Around(Vec<(f64, usize)>),
     /// These, in the space of the mesh: positions of cameras, directions towards lights. One that comes more often weighs more.
-    /// 64 eyes all around are added, so that faces that none of these sees are in clusters as well.
+    /// 64 eyes all around, at 4 radii, are added, so that faces that none of these sees are in clusters as well.
     These(Vec<Eye>),
 }
 
@@ -34,7 +34,39 @@ impl SampledEyes {
     /// How many eyes there are at most, with those that are added.
     pub const MOST: usize = 512;
 
+    /// How many may be given as [`These`](Self::These).
+    pub const MOST_GIVEN: usize = Self::MOST - Self::ADDED;
+
     const ADDED: usize = 64;
+
+    /// For views from near: 64 eyes each at 1.25, 1.5, 2 and 3 radii.
+    #[must_use]
+    pub fn near() -> Self {
+        Self::Around([1.25, 1.5, 2.0, 3.0].map(|far| (far, 64)).to_vec())
+    }
+
+    /// For views from far: 64 eyes each at 4, 6, 10 and 20 radii.
+    #[must_use]
+    pub fn far() -> Self {
+        Self::Around([4.0, 6.0, 10.0, 20.0].map(|far| (far, 64)).to_vec())
+    }
+
+    /// For orthographic views, such as those of directional lights: 256.
+    #[must_use]
+    pub fn orthographic() -> Self {
+        Self::Around(vec![(f64::INFINITY, 256)])
+    }
+
+    /// How many eyes there are, with those that are added.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Around(spheres) => spheres
+                .iter()
+                .fold(0, |sum, &(_, count)| count.saturating_add(sum)),
+            Self::These(eyes) => eyes.len().saturating_add(Self::ADDED),
+        }
+    }
 
     /// The eyes around a mesh with that bounding ball.
     ///
@@ -42,7 +74,10 @@ impl SampledEyes {
     /// If there are more than [`MOST`](Self::MOST).
     #[must_use]
     pub fn eyes(&self, ball: Ball) -> Vec<Eye> {
-        let eyes = match self {
+        let count = self.count();
+        let most = Self::MOST;
+        assert!(count <= most, "{count} eyes, at most {most} are sampled");
+        match self {
             Self::These(eyes) => {
                 let mut eyes = eyes.clone();
                 eyes.extend(sphere(ball, 4.0, Self::ADDED, 0));
@@ -54,14 +89,7 @@ impl SampledEyes {
                     .flat_map(|(number, &(far, count))| sphere(ball, far, count, number))
                     .collect()
             }
-        };
-        assert!(
-            eyes.len() <= Self::MOST,
-            "{} eyes, at most {} are sampled",
-            eyes.len(),
-            Self::MOST
-        );
-        eyes
+        }
     }
 }
 

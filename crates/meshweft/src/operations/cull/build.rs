@@ -29,7 +29,7 @@ use crate::progress::Progress;
 /// The result is the same on any number of threads.
 ///
 /// # Errors
-/// [`CullError`]: a mesh has a table already, or a GLB would lose something that the options do not let go.
+/// [`CullError`]: the options are not sound, a mesh has a table already, or a GLB would lose something that the options do not let go.
 ///
 /// # Complexity
 /// That of [`ViewClusters`] on each mesh.
@@ -50,6 +50,7 @@ pub fn cull_build(
     options: &CullOptions,
     progress: &dyn Progress,
 ) -> Result<CullReport, CullError> {
+    options.check().map_err(CullError::Options)?;
     let (file, bytes_before) = (document.path().to_owned(), document.source_bytes());
     let mut notes = Vec::new();
     let mut lost = Vec::new();

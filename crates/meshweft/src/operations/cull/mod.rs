@@ -1,10 +1,12 @@
 //! Which faces of a document need not be drawn, and what that saves.
 //!
-//! Read `build` for how a document gets its tables, `created` for what becomes of one in another format, `stats` for what
+//! Read `build` for how a document gets its tables, `created` for what becomes of one in another format, `eyes` for
+//! how eyes are listed, `stats` for what
 //! tables leave out.
 
 mod build;
 mod created;
+mod eyes;
 mod options;
 mod report;
 mod stats;
@@ -12,7 +14,8 @@ mod stats_report;
 mod views;
 
 pub use build::cull_build;
-pub use options::{CullError, CullOptions, CullStatsOptions};
+pub use eyes::{CullEyesError, eyes_by_name, eyes_of_json};
+pub use options::{CullError, CullOptions, CullOptionsError, CullStatsOptions};
 pub use report::{CullOutcome, CullReport, CulledMesh};
 pub use stats::cull_stats;
 pub use stats_report::{CullStatsReport, CullingFigures};

@@ -3,8 +3,9 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use crate::culling::ViewClusters;
+use crate::culling::{SampledEyes, ViewClusters};
 use crate::files::FileError;
+use crate::operations::options::{OptionsError, check_target};
 
 /// How a document gets culling tables.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -15,6 +16,53 @@ pub struct CullOptions {
     /// For formats other than glTF: keep only names of meshes, positions and faces.
     pub drop_attributes: bool,
 }
+
+impl CullOptions {
+    /// Whether clusters can be made like this; `cull_build` checks it first.
+    ///
+    /// # Errors
+    /// [`CullOptionsError`] if they cannot.
+    pub fn check(&self) -> Result<(), CullOptionsError> {
+        let target = self.clusters.optimizer.target;
+        check_target(target).map_err(CullOptionsError::Ordering)?;
+        match self.clusters.eyes.count() {
+            0 => Err(CullOptionsError::NoEyes),
+            count if count > SampledEyes::MOST => Err(CullOptionsError::TooManyEyes { count }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Why clusters cannot be made like this.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CullOptionsError {
+    /// Faces are not ordered for that.
+    Ordering(OptionsError),
+    /// No eye is asked for.
+    NoEyes,
+    /// More than [`SampledEyes::MOST`] are.
+    TooManyEyes {
+        /// How many, with those that are added.
+        count: usize,
+    },
+}
+
+impl fmt::Display for CullOptionsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Ordering(error) => error.fmt(f),
+            Self::NoEyes => f.write_str("clusters are made for some eyes: give one at least"),
+            Self::TooManyEyes { count } => write!(
+                f,
+                "{count} eyes, with those that are added: {} at most are sampled",
+                SampledEyes::MOST
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CullOptionsError {}
 
 /// From where a document is looked at.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +114,8 @@ pub enum CullError {
         /// The file.
         file: PathBuf,
     },
+    /// Clusters cannot be made like that.
+    Options(CullOptionsError),
     /// The document cannot be read or changed.
     File(FileError),
 }
@@ -91,6 +141,7 @@ impl fmt::Display for CullError {
                 file.display()
             ),
             Self::NoFaces { file } => write!(f, "{}: there are no faces", file.display()),
+            Self::Options(error) => error.fmt(f),
             Self::File(error) => error.fmt(f),
         }
     }

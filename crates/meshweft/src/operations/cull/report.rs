@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::options::CullOptions;
+use crate::culling::SampledEyes;
 use crate::files::{MeshEntry, Note, Written};
 use crate::operations::json;
 use crate::permutation::FaceOrder;
@@ -150,7 +151,12 @@ impl CullReport {
             self.copied,
             self.seconds,
         );
-        report.insert("draw_cost".into(), json!(self.options.clusters.draw_cost));
+        let clusters = &self.options.clusters;
+        report.insert("eyes".into(), eyes(&clusters.eyes));
+        report.insert("face_cost".into(), json!(clusters.face_cost));
+        report.insert("draw_cost".into(), json!(clusters.draw_cost));
+        let target = clusters.optimizer.target.to_string();
+        report.insert("cache".into(), json!(target));
         report.insert("stopped".into(), json!(self.is_stopped));
         report.insert("lost".into(), json!(self.lost));
         report.insert("meshes".into(), Value::Null);
@@ -178,5 +184,18 @@ impl CullReport {
             "always_drawn": of(|it| matches!(it, CullOutcome::AlwaysDrawn(_))),
             "left": of(|it| matches!(it, CullOutcome::Left(_))),
         })
+    }
+}
+
+/// For which eyes clusters were made. An orthographic view has the distance `null`.
+fn eyes(eyes: &SampledEyes) -> Value {
+    match eyes {
+        SampledEyes::Around(spheres) => spheres
+            .iter()
+            .map(|(distance, count)| {
+                json!({"distance": distance.is_finite().then_some(distance), "count": count})
+            })
+            .collect(),
+        SampledEyes::These(eyes) => eyes.iter().map(|eye| json!(eye.point)).collect(),
     }
 }
