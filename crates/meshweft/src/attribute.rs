@@ -108,6 +108,15 @@ pub struct AttributeInfo {
 }
 
 impl AttributeInfo {
+    /// Whether it is where the vertices are, by three coordinates.
+    #[cfg(feature = "files")]
+    pub(crate) fn is_vertex_position(&self) -> bool {
+        self.semantic == Semantic::Position
+            && self.morph_target.is_none()
+            && self.domain == Domain::Vertex
+            && self.components == 3
+    }
+
     /// An attribute of the mesh itself, not normalized.
     #[must_use]
     pub fn new(

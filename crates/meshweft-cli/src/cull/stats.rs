@@ -42,7 +42,7 @@ const PLOTTED: usize = 24;
 /// More directions at a distance are not looked from.
 const MOST_EYES: usize = 100_000;
 
-/// Prints what the tables of a file leave out; fails if that is anything that is seen.
+/// Prints what the tables of a file leave out; fails if one cannot be used or leaves out anything that is seen.
 pub(super) fn run(arguments: &Stats) -> Result<()> {
     if !(1..=MOST_EYES).contains(&arguments.eyes) {
         let told = format!("--eyes {}: give 1 to {MOST_EYES}", arguments.eyes);
@@ -61,25 +61,27 @@ pub(super) fn run(arguments: &Stats) -> Result<()> {
 
     arguments.report.json_line(&report.to_json())?;
     arguments.report.text(&text(&report))?;
-    let notes = output::note_lines(&report.file, &report.notes);
+    let wrong = output::note_lines(&report.file, &report.wrong);
+    let mut notes = output::note_lines(&report.file, &report.notes);
+    notes.extend(wrong.iter().skip(1).cloned());
     arguments.report.notes(&notes)?;
     if let Some(path) = &arguments.plot {
         options.distances = plotted_distances();
         let report = operations::cull_stats(&document, &options)?;
         fs::write(path, svg(&report)).with_context(|| path.display().to_string())?;
     }
-    match report.is_true() {
-        true => Ok(()),
-        false => bail!(
-            "{}: a culling table leaves out faces that are seen: build one from the source",
-            report.file.display()
-        ),
+    match wrong.first() {
+        None => Ok(()),
+        Some(first) => bail!("{first}. Build tables from the source of the file"),
     }
 }
 
 /// The figures of all meshes for each distance, and a line for each of several meshes.
 fn text(report: &CullStatsReport) -> String {
     let file = report.file.display();
+    if report.meshes.is_empty() && !report.wrong.is_empty() {
+        return format!("{file}: no culling table can be used");
+    }
     if report.meshes.is_empty() {
         return format!("{file}: no mesh has a culling table (make one with cull build)");
     }

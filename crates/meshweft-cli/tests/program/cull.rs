@@ -229,13 +229,27 @@ fn a_table_of_other_faces_is_found_out() {
     folder.write("wrong.glb", bytes);
     let run = folder.run(&["cull", "stats", "wrong.glb"]);
     assert_eq!(run.code(), 1);
-    let expected = "a culling table leaves out faces that are seen";
+    for expected in [
+        "error: wrong.glb: /meshes/0/primitives/0: ",
+        "its culling table does not match its faces",
+        "front faces are left out. Build tables from the source",
+    ] {
+        assert!(run.err().contains(expected), "{}", run.err());
+    }
+
+    // A plane whose normal is longer than 1: no eye can be judged by it.
+    let mut bytes = folder.read("ball.glb");
+    bytes[end - 16..end - 12].copy_from_slice(&9.0_f32.to_le_bytes());
+    folder.write("damaged.glb", bytes);
+    let run = folder.run(&["cull", "stats", "damaged.glb", "--json"]);
+    assert_eq!(run.code(), 1);
+    let expected = "its culling table is out of range: the planes of cluster ";
     assert!(run.err().contains(expected), "{}", run.err());
-    assert!(
-        run.err().contains("front faces are left out"),
-        "{}",
-        run.err()
-    );
+    let report: serde_json::Value = serde_json::from_str(&run.out()).unwrap();
+    assert_eq!(report["without_table"], 1);
+    let wrong = &report["wrong_tables"][0];
+    assert_eq!(wrong["place"], "/meshes/0/primitives/0");
+    assert!(wrong["text"].as_str().unwrap().contains(expected));
 }
 
 #[test]

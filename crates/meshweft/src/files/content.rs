@@ -10,7 +10,7 @@ use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::placing::{Beside, Placed};
 use super::select::SelectPlan;
-use super::stored_culling::{SeenSides, StoredCulling};
+use super::stored_culling::{PlacedTable, SeenSides, StoredCulling};
 use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::permutation::{FaceOrder, VertexOrder};
@@ -62,6 +62,14 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     }
     /// The culling table of a mesh, if it has one.
     fn culling(&self, _mesh: usize) -> Option<StoredCulling> {
+        None
+    }
+    /// Calls `visit` with each culling table, in the order of the file.
+    fn each_table(&self, _visit: &mut dyn FnMut(PlacedTable<'_>)) -> Result<(), Problem> {
+        Ok(())
+    }
+    /// What is wrong with tables that keep their faces from being read as a mesh, if there are such.
+    fn damaged_table(&self) -> Option<&Note> {
         None
     }
     /// Which sides of the faces of each mesh are seen, or why none of them may be left out.

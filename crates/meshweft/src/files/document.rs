@@ -17,11 +17,11 @@ use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
 use super::select::SelectPlan;
-use super::stored_culling::{SeenSides, StoredCulling};
+use super::stored_culling::{PlacedTable, SeenSides, StoredCulling};
 use super::surroundings::{Surroundings, check_size};
 use super::unlisted::Unlisted;
 use super::{gltf, obj, off, ply, signature, stl, vrml};
-use crate::attribute::{Attribute, AttributeInfo, Domain, Semantic};
+use crate::attribute::{Attribute, AttributeInfo};
 
 /// A mesh file whose faces and vertices can be permuted in place.
 ///
@@ -357,6 +357,20 @@ impl Document {
         self.content.culling(mesh)
     }
 
+    /// Calls `visit` with each culling table, in the order of the file; those of equal primitives come once.
+    pub(crate) fn each_table(
+        &self,
+        visit: &mut dyn FnMut(PlacedTable<'_>),
+    ) -> Result<(), FileError> {
+        let visited = self.content.each_table(visit);
+        visited.map_err(|problem| problem.in_file(&self.path, Some(self.format)))
+    }
+
+    /// What is wrong with tables that keep their faces from being read as a mesh, if there are such.
+    pub(crate) fn damaged_table(&self) -> Option<&Note> {
+        self.content.damaged_table()
+    }
+
     /// Which sides of the faces of each mesh are seen, or why none of them may be left out.
     ///
     /// Time O(bytes of text).
@@ -378,13 +392,8 @@ impl Document {
 
     /// The attribute that is the positions of a mesh.
     fn position_info(&self, mesh: usize) -> Option<AttributeInfo> {
-        let is_position = |info: &AttributeInfo| {
-            info.semantic == Semantic::Position
-                && info.morph_target.is_none()
-                && info.domain == Domain::Vertex
-                && info.components == 3
-        };
-        self.attributes(mesh).into_iter().find(is_position)
+        let mut infos = self.attributes(mesh).into_iter();
+        infos.find(AttributeInfo::is_vertex_position)
     }
 
     /// Changes the document in memory; [`write`](Self::write) writes it.

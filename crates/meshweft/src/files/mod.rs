@@ -74,7 +74,7 @@ pub use note::Note;
 pub use options::ReadOptions;
 pub use outputs::Outputs;
 pub use select::{SelectedFace, SelectedFaces, SelectedVertices};
-pub(crate) use stored_culling::SeenSides;
 pub use stored_culling::StoredCulling;
+pub(crate) use stored_culling::{PlacedTable, SeenSides};
 pub use surroundings::Surroundings;
 pub use write::{WriteOptions, Written};

@@ -7,6 +7,7 @@ mod attributes;
 mod broken;
 mod builder;
 mod companions;
+mod cull_stats;
 mod culling;
 mod data;
 #[path = "../data/folder.rs"]

@@ -5,7 +5,7 @@
 //! keeps the primitive as it is. The planes are not looked at before they are asked for.
 
 use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::accessors::{Accessor, Accessors, FLOAT, Shape, UNSIGNED_INT};
 use super::buffers::Buffers;
@@ -17,6 +17,19 @@ use crate::files::error::Problem;
 use crate::files::stored_culling::StoredCulling;
 
 pub(super) const NAME: &str = "MESHWEFT_culling";
+
+/// What is said of a primitive whose table cannot be that of its faces, before what is wrong.
+const NOT_SOUND: &str = "its MESHWEFT_culling is not sound: ";
+
+/// Why a primitive with such a table stays.
+pub(super) fn damage(why: &str) -> String {
+    format!("{NOT_SOUND}{why}")
+}
+
+/// Whether a primitive stays for such a table.
+pub(super) fn is_damage(why: &str) -> bool {
+    why.starts_with(NOT_SOUND)
+}
 
 /// Planes of a cluster.
 const PLANES: usize = 4;
@@ -95,6 +108,12 @@ impl Culling {
                 planes,
             })),
         }
+    }
+
+    /// Equal for equal tables.
+    pub(super) fn key(&self) -> impl Ord + use<> {
+        let [x, y, z] = self.center.map(f32::to_bits);
+        (self.starts, self.planes, [x, y, z, self.reach.to_bits()])
     }
 
     /// The first face of each cluster.
@@ -180,34 +199,4 @@ pub(super) fn accessors_of(root: &Object) -> impl Iterator<Item = (usize, String
             numbers.map(move |accessor| (accessor, pointer()))
         })
     })
-}
-
-/// The tables of meshes.
-#[derive(Debug, Default)]
-pub(super) struct Tables {
-    /// The first table of each mesh that has some.
-    of_mesh: BTreeMap<usize, Culling>,
-    seen: BTreeSet<(usize, StridedRecords)>,
-    runs: BTreeMap<usize, Vec<u32>>,
-}
-
-impl Tables {
-    /// Adds the table of a primitive that draws the faces of a mesh.
-    pub(super) fn add(&mut self, mesh: usize, table: Option<&Culling>, buffers: &Buffers) {
-        let Some(table) = table.filter(|table| self.seen.insert((mesh, table.starts))) else {
-            return;
-        };
-        self.of_mesh.entry(mesh).or_insert(*table);
-        let runs = self.runs.entry(mesh).or_default();
-        runs.extend(table.runs(buffers));
-    }
-
-    /// For each mesh where the clusters of its tables begin, in any order.
-    pub(super) fn take_runs(&mut self) -> BTreeMap<usize, Vec<u32>> {
-        std::mem::take(&mut self.runs)
-    }
-
-    pub(super) fn of(&self, mesh: usize) -> Option<&Culling> {
-        self.of_mesh.get(&mesh)
-    }
 }

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::buffers::Buffers;
 use super::byte_users::{ByteUsers, UsedAs};
-use super::culling::Tables;
 use super::groups::{group_numbers, vertex_obstacle};
 use super::movable::{Draws, IndexList, Movable, PrimitiveNumber};
 use super::object::malformed;
@@ -14,6 +13,7 @@ use super::patch;
 use super::primitives::Primitives;
 use super::sparse::Sparse;
 use super::strided_records::StridedRecords;
+use super::tables::Tables;
 use crate::Mesh;
 use crate::files::entry::MeshEntry;
 use crate::files::error::{FileErrorKind, Place, Problem};
@@ -96,7 +96,7 @@ impl Entries {
                 };
                 drawn_by[mesh].push(primitive.number.mesh);
 
-                entries.tables.add(mesh, primitive.culling(), buffers);
+                entries.tables.add(mesh, primitive, buffers);
 
                 if primitive.draws == Draws::FacesInOrder {
                     entries.meshes[mesh].faces_movable = false;

@@ -15,7 +15,8 @@
 //! Strips are made lists before all else, if that is asked for: [`strips`].
 //! [`mod@unlisted`] names what is neither in the meshes nor in their attributes.
 //! [`companions`] are the files that it names beside these; [`neighbours`] asks who else names a buffer.
-//! [`culling`] reads the tables that say which faces need not be drawn, [`new_tables`] adds them, [`sides`] finds which sides
+//! [`culling`] reads the tables that say which faces need not be drawn, [`new_tables`] adds them, [`tables`] has those
+//! of each mesh, [`placed_tables`] their positions too, [`sides`] finds which sides
 //! are seen.
 //! What is left out goes through [`select`]: [`leaving`] moves up the records that stay, [`byte_map`] says
 //! where the rest then stands, [`stated_bounds`] has the smallest and largest values.
@@ -81,6 +82,7 @@ mod objects;
 mod obstacles;
 mod output;
 mod patch;
+mod placed_tables;
 mod primitives;
 mod scene;
 mod select;
@@ -89,6 +91,7 @@ mod sparse;
 mod stated_bounds;
 mod strided_records;
 mod strips;
+mod tables;
 mod unlisted;
 mod uri;
 
@@ -108,7 +111,7 @@ use super::note::Note;
 use super::options::ReadOptions;
 use super::placing::{Beside, Placed};
 use super::select::SelectPlan;
-use super::stored_culling::{SeenSides, StoredCulling};
+use super::stored_culling::{PlacedTable, SeenSides, StoredCulling};
 use super::surroundings::Surroundings;
 use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
@@ -144,6 +147,10 @@ struct View {
     companions: Vec<PathBuf>,
     entries: Entries,
     attributes: Attributes,
+    /// Those of each primitive that has a culling table.
+    table_attributes: Attributes,
+    /// What is wrong with culling tables that cannot be used.
+    damaged_table: Option<Note>,
     /// The name of the first primitive with faces that are in no mesh.
     unread_faces: Option<String>,
 }
@@ -212,6 +219,7 @@ fn look(
     groups::keep_entangled(&mut primitives, &mut byte_users);
     let entries = Entries::new(&primitives, &byte_users, buffers)?;
     let attributes = Attributes::new(root, &accessors, &entries.first_primitives);
+    let table_attributes = Attributes::new(root, &accessors, &entries.tables.primitives());
 
     let companions = Companions::of(root);
     let notes = notes::notes(&primitives, &entries, buffers, &companions);
@@ -220,6 +228,8 @@ fn look(
         companions: companions.files.into_iter().collect(),
         entries,
         attributes,
+        table_attributes,
+        damaged_table: tables::damaged(&primitives),
         unread_faces: primitives.unread_faces(),
     };
     Ok((view, notes))
@@ -427,6 +437,14 @@ impl Content for GltfFile {
     fn culling(&self, mesh: usize) -> Option<StoredCulling> {
         let table = self.view.entries.tables.of(mesh)?;
         Some(table.stored(&self.buffers))
+    }
+
+    fn each_table(&self, visit: &mut dyn FnMut(PlacedTable<'_>)) -> Result<(), Problem> {
+        GltfFile::each_table(self, visit)
+    }
+
+    fn damaged_table(&self) -> Option<&Note> {
+        self.view.damaged_table.as_ref()
     }
 
     fn seen_sides(&self) -> Vec<Result<SeenSides, &'static str>> {

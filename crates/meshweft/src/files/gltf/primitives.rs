@@ -248,7 +248,7 @@ impl PrimitiveReader<'_> {
             self.known_starts,
         );
         let culling = culling.unwrap_or_else(|why| {
-            obstacles.keep_primitive(format!("its {} is not sound: {why}", culling::NAME));
+            obstacles.keep_primitive(culling::damage(&why));
             None
         });
 

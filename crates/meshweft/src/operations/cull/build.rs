@@ -153,7 +153,9 @@ fn clustered(
 
     // What keeps its order is always drawn.
     let why = match sides {
-        SeenSides::Both => Some("both sides of its faces are seen (doubleSided)"),
+        SeenSides::Both => {
+            Some("both sides of its faces are seen (doubleSided)")
+        }
         SeenSides::Front if !entry.faces_movable => {
             Some("its faces are transparent (alphaMode BLEND), so their order stays")
         }
@@ -193,7 +195,7 @@ fn check(table: &StoredCulling) -> Result<(), String> {
 }
 
 /// The positions of a mesh; `shared` are those of all meshes, if all have some.
-pub(super) fn positions_of<'a>(
+fn positions_of<'a>(
     document: &Document,
     shared: Option<&'a [Rc<[[f32; 3]]>]>,
     mesh: usize,

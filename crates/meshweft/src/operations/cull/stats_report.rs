@@ -19,13 +19,15 @@ pub struct CullStatsReport {
     pub bytes: u64,
     /// From where it was looked at.
     pub options: CullStatsOptions,
-    /// Each mesh that has a table.
+    /// Each table that can be used, of the primitives of all meshes.
     pub meshes: Vec<CullingFigures>,
-    /// How many meshes have none, or one that is not sound.
+    /// How many meshes have none that can be used.
     pub without: usize,
-    /// All meshes that have a table together, each seen from as far in its own radii.
+    /// Tables that cannot be used, or leave out what is seen: which and where.
+    pub wrong: Vec<Note>,
+    /// All tables together, the faces of each seen from as far in their own radii.
     pub total: CullingFigures,
-    /// What the reader of the file leaves as it is, and what is wrong with tables.
+    /// What the reader of the file leaves as it is.
     pub notes: Vec<Note>,
 }
 
@@ -104,13 +106,10 @@ impl CullingFigures {
 }
 
 impl CullStatsReport {
-    /// Whether no table leaves out a face that faces the eye.
+    /// Whether every table can be used, and leaves out no face that faces the eye.
     #[must_use]
     pub fn is_true(&self) -> bool {
-        self.total
-            .views
-            .iter()
-            .all(|view| view.wrongly_rejected == 0)
+        self.wrong.is_empty()
     }
 
     /// The report as one line of JSON. An orthographic view has the distance `null`.
@@ -124,6 +123,7 @@ impl CullStatsReport {
         report.insert("cache".into(), json!(CACHE.to_string()));
         report.insert("meshes".into(), Value::Null);
         report.insert("without_table".into(), json!(self.without));
+        report.insert("wrong_tables".into(), json::notes(&self.wrong));
         report.insert("total".into(), self.total.json(distances));
         report.insert("notes".into(), json::notes(&self.notes));
         let meshes = self.meshes.iter().map(|mesh| mesh.json(distances));
