@@ -318,6 +318,34 @@ fn what_may_not_be_culled_is_told() {
     }}});
     always(&mut ball_with(&variants, &materials), "doubleSided");
 
+    // Outlines of VRM 1 and 0 are the back faces, drawn once more; VRM 0 says for itself which faces are left out.
+    let toon =
+        |members: Value| json!({"materials": [{"extensions": {"VRMC_materials_mtoon": members}}]});
+    let vrm = |members: Value| {
+        let properties = json!([{"floatProperties": members}]);
+        json!({"materials": [{}], "extensions": {"VRM": {"materialProperties": properties}}})
+    };
+    let toon_with = |mode: &str| toon(json!({"outlineWidthMode": mode}));
+    for others in [
+        toon_with("worldCoordinates"),
+        toon_with("screenCoordinates"),
+        vrm(json!({"_OutlineWidthMode": 1})),
+        vrm(json!({"_OutlineWidthMode": 2.0, "_CullMode": 2})),
+        vrm(json!({"_CullMode": 0})),
+    ] {
+        let mut document = ball_with(&json!({"material": 0}), &others);
+        always(&mut document, "an outline of VRM");
+    }
+    for others in [
+        toon_with("none"),
+        toon(json!({"outlineWidthFactor": 0.1})),
+        vrm(json!({"_OutlineWidthMode": 0.0, "_CullMode": 2})),
+        vrm(json!({"_OutlineWidth": 0.5})),
+    ] {
+        let report = build(&mut ball_with(&json!({"material": 0}), &others));
+        assert_eq!(report.meshes[0].outcome, CullOutcome::Clusters, "{others}");
+    }
+
     let left = |document: &mut Document, why: &str| {
         let bytes = document.to_main_bytes().unwrap();
         let report = build(document);

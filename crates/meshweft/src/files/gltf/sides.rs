@@ -32,15 +32,20 @@ impl GltfFile {
         };
 
         // All primitives.
-        let is_double_sided: Vec<bool> = all(&root, "materials")
-            .map(|material| material.get("doubleSided").is_some_and(Value::is_true))
+        let of_vrm = materials_of_vrm(&root);
+        let materials = all(&root, "materials").enumerate();
+        let shows_backs: Vec<bool> = materials
+            .map(|(number, material)| {
+                let is_double = material.get("doubleSided").is_some_and(Value::is_true);
+                is_double || has_outline(material) || of_vrm.get(number) == Some(&true)
+            })
             .collect();
         let mut primitives = BTreeMap::new();
         for (mesh, value) in (0_u32..).zip(all(&root, "meshes")) {
             let list = value.get("primitives").into_iter();
             for (primitive, value) in (0_u32..).zip(list.flat_map(Value::elements)) {
                 let number = PrimitiveNumber { mesh, primitive };
-                primitives.insert(number, DrawnPrimitive::of(value, &is_double_sided));
+                primitives.insert(number, DrawnPrimitive::of(value, &shows_backs));
             }
         }
         let skinned = all(&root, "nodes").filter(|node| node.get("skin").is_some());
@@ -77,7 +82,7 @@ impl GltfFile {
 }
 
 impl DrawnPrimitive {
-    fn of(value: Value<'_>, is_double_sided: &[bool]) -> Self {
+    fn of(value: Value<'_>, shows_backs: &[bool]) -> Self {
         // Its material, and those that variants give it.
         let extensions = value.get("extensions");
         let variants = extensions.and_then(|all| all.get("KHR_materials_variants"));
@@ -85,15 +90,15 @@ impl DrawnPrimitive {
         let mappings = mappings.into_iter().flat_map(Value::elements);
         let of_variants = mappings.map(|mapping| mapping.get("material"));
         let mut materials = of_variants.chain([value.get("material")]).flatten();
-        let is_double = materials.any(|material| {
+        let is_both = materials.any(|material| {
             let number = material.whole();
-            number.is_some_and(|number| is_double_sided.get(number) == Some(&true))
+            number.is_some_and(|number| shows_backs.get(number) == Some(&true))
         });
 
         let targets = value.get("targets").into_iter().flat_map(Value::elements);
         let position = value.get("attributes");
         Self {
-            sides: match is_double {
+            sides: match is_both {
                 true => SeenSides::Both,
                 false => SeenSides::Front,
             },
@@ -101,6 +106,32 @@ impl DrawnPrimitive {
             position: position.and_then(|all| all.get("POSITION")?.whole()),
         }
     }
+}
+
+/// Whether a toon material of VRM 1 draws an outline: the faces once more, their backs to the eye.
+fn has_outline(material: Value<'_>) -> bool {
+    let toon = material.get("extensions");
+    let toon = toon.and_then(|all| all.get("VRMC_materials_mtoon"));
+    let mode = toon.and_then(|toon| toon.get("outlineWidthMode"));
+    mode.is_some_and(|mode| mode.text().as_deref() != Some("none"))
+}
+
+/// Whether each material of a file of VRM 0, by its own properties, draws an outline or leaves out other faces than those
+/// that face away.
+fn materials_of_vrm(root: &Object) -> Vec<bool> {
+    /// The back faces are not drawn.
+    const CULL_BACK: usize = 2;
+    let vrm = root.value("extensions").and_then(|all| all.get("VRM"));
+    let properties = vrm.and_then(|vrm| vrm.get("materialProperties"));
+    let properties = properties.into_iter().flat_map(Value::elements);
+    let shows_backs = |properties: Value<'_>| {
+        let number = |name: &str| properties.get("floatProperties")?.get(name);
+        let is_other = |name: &str, usual: usize| {
+            number(name).is_some_and(|number| number.whole() != Some(usual))
+        };
+        is_other("_OutlineWidthMode", 0) || is_other("_CullMode", CULL_BACK)
+    };
+    properties.map(shows_backs).collect()
 }
 
 /// The elements of an array of the file.

@@ -154,7 +154,7 @@ fn clustered(
     // What keeps its order is always drawn.
     let why = match sides {
         SeenSides::Both => {
-            Some("both sides of its faces are seen (doubleSided)")
+            Some("both sides of its faces are seen (doubleSided, or an outline of VRM)")
         }
         SeenSides::Front if !entry.faces_movable => {
             Some("its faces are transparent (alphaMode BLEND), so their order stays")
