@@ -22,6 +22,7 @@ mod clusters;
 mod exact;
 mod eye;
 mod facing;
+mod inner_order;
 mod meshlets;
 #[cfg(test)]
 mod paper_circle_tests;

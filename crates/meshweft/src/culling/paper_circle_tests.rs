@@ -151,7 +151,7 @@ fn left_out(mesh: &Mesh, around: Ball, rule: Rule, eye: Eye) -> usize {
 fn views_with_holes(mesh: &Mesh, radii: Option<f64>) -> [(usize, usize); 2] {
     let order = NormalStripes {
         stripe_count: Some(STRIPES),
-        range_count: 512,
+        ..NormalStripes::default()
     };
     let striped = order.order(mesh);
     let around = striped.ball().unwrap();

@@ -5,12 +5,14 @@ use std::ops::Range;
 
 use super::eye::{Eye, EyeBox};
 use super::facing::{MARGIN, normal};
+use super::inner_order;
 use super::ranges::Ranges;
 use crate::geometry::Ball;
 use crate::geometry::angle::{angle, arc_cosine};
 use crate::geometry::double::{dot, scaled, widened};
 use crate::index::index32;
 use crate::mesh::Mesh;
+use crate::order::Optimizer;
 use crate::permutation::{FaceOrder, Permutation};
 
 /// The paper's order: stripes by the latitude of normals, from the one that points along +y to the one along −y; in each,
@@ -24,13 +26,15 @@ use crate::permutation::{FaceOrder, Permutation};
 /// - An eye in or on the bounding sphere sees everything.
 /// - Faces without an area, or with so little that rounding may have turned their normal, are in no stripe: they come last, and
 ///   are always drawn. So are faces with a corner that is not finite.
-/// - Faces of a range stay in the order of the mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// - Faces of a range stay in the order of the mesh, unless an [`optimizer`](Self::optimizer) is given: the paper has no order there.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NormalStripes {
     /// *V*; `None` for the one with which the nearest sphere of the paper's Table 3 was drawn fastest.
     pub stripe_count: Option<u32>,
     /// *N*, for each stripe.
     pub range_count: u32,
+    /// What puts the faces of each range in order; `None` for the order of the mesh.
+    pub optimizer: Option<Optimizer>,
 }
 
 impl Default for NormalStripes {
@@ -38,6 +42,7 @@ impl Default for NormalStripes {
         Self {
             stripe_count: None,
             range_count: 512,
+            optimizer: None,
         }
     }
 }
@@ -70,7 +75,7 @@ impl NormalStripes {
     /// If the mesh has no positions, or if there were more than 2³² ranges.
     ///
     /// # Complexity
-    /// Time O(vertices + faces + stripes × ranges); space 16 bytes a face, and 4 for each range.
+    /// Time O(vertices + faces + stripes × ranges), and what the optimizer takes; space 16 bytes a face, and 4 for each range.
     #[must_use]
     pub fn order(&self, mesh: &Mesh) -> StripedFaces {
         let (positions, faces) = (mesh.positions(), mesh.faces());
@@ -109,9 +114,17 @@ impl NormalStripes {
             *next += 1;
         }
 
-        let order = Permutation::from_algorithm(new_to_old);
+        let order = match &self.optimizer {
+            None => Permutation::from_algorithm(new_to_old).into(),
+            Some(optimizer) => {
+                let ranges = starts.windows(2).filter(|ends| ends[0] < ends[1]);
+                let members =
+                    ranges.map(|ends| new_to_old[ends[0] as usize..ends[1] as usize].to_vec());
+                inner_order::of_groups(mesh, members.collect(), optimizer)
+            }
+        };
         StripedFaces {
-            order: FaceOrder::new(order, vec![0; faces.len()]).expect("a rotation for each face"),
+            order,
             ball: Ball::around(mesh.corner_positions()),
             bands,
             range_count,
@@ -160,7 +173,7 @@ pub struct StripedFaces {
     range_count: u32,
     /// Where the faces of each range begin, those of the first stripe first; then where those begin that are always
     /// drawn, and how many faces there are.
-    starts: Vec<u32>,
+    pub(super) starts: Vec<u32>,
 }
 
 impl StripedFaces {

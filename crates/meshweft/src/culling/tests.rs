@@ -3,10 +3,13 @@
 use super::exact::{
     UNIT, any_eye, any_mesh, any_numbers, assert_all_front, ball, cases, on_lattice,
 };
-use super::{CullingTable, Eye, EyeBox, NormalStripes, Ranges, ViewClusters};
+use super::{CullingTable, Eye, EyeBox, NormalStripes, Ranges, StripedFaces, ViewClusters};
+use crate::cache::{self, CacheModel};
 use crate::geometry::Ball;
 use crate::index::index32;
 use crate::mesh::Mesh;
+use crate::order::Optimizer;
+use crate::permutation::FaceOrder;
 use crate::random::SplitMix64;
 
 #[test]
@@ -19,6 +22,7 @@ fn stripes_leave_out_no_front_face() {
         let stripes = NormalStripes {
             stripe_count: Some([1, 2, 4, 16, 64][random.below(5)]),
             range_count: [1, 2, 7, 64, 512][random.below(5)],
+            optimizer: (case % 3 == 0).then(|| Optimizer::for_cache(CacheModel::fifo(16))),
         };
         let striped = stripes.order(&mesh);
         let around = striped.ball().unwrap();
@@ -32,6 +36,55 @@ fn stripes_leave_out_no_front_face() {
         }
     }
     assert!(culled > all / 10, "{culled} of {all} faces were culled");
+}
+
+#[test]
+fn an_optimizer_orders_faces_inside_their_ranges() {
+    let mesh = ball(40, 60, 0.0, false, &mut any_numbers(8));
+    let plain = NormalStripes {
+        stripe_count: Some(2),
+        range_count: 4,
+        optimizer: None,
+    };
+    let cache = CacheModel::fifo(16);
+    let before = plain.order(&mesh);
+    let misses = |order: &FaceOrder| cache::misses(mesh.with_face_order(order).as_faces(), cache);
+    for keep_corners in [false, true] {
+        let optimizer = Optimizer {
+            keep_corners,
+            ..Optimizer::for_cache(cache)
+        };
+        let ordered = NormalStripes {
+            optimizer: Some(optimizer.clone()),
+            ..plain.clone()
+        };
+        let after = ordered.order(&mesh);
+        assert!(misses(after.order()) < misses(before.order()));
+        assert_eq!(
+            after.order().rotations().iter().all(|&r| r == 0),
+            keep_corners
+        );
+
+        // The same faces are in each range, and so are found from the same eyes.
+        for ends in before.starts.windows(2) {
+            let members = |striped: &StripedFaces| {
+                let range = ends[0] as usize..ends[1] as usize;
+                let mut faces = striped.order().new_to_old()[range].to_vec();
+                faces.sort_unstable();
+                faces
+            };
+            assert_eq!(members(&before), members(&after));
+        }
+        assert_eq!(before.starts, after.starts);
+
+        // Clusters are ordered likewise.
+        let clusters = ViewClusters {
+            optimizer,
+            ..ViewClusters::default()
+        };
+        let clustered = clusters.order(&mesh);
+        assert_eq!(clustered.order().len(), mesh.face_count());
+    }
 }
 
 /// Where clusters of any size begin.

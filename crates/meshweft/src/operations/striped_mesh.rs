@@ -223,6 +223,7 @@ impl StripedMesh {
         let stripes = NormalStripes {
             stripe_count,
             range_count,
+            optimizer: None,
         };
         let striped = stripes.order(mesh);
         Self {

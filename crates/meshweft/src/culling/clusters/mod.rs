@@ -23,16 +23,15 @@ mod tour;
 
 use super::eye::Eye;
 use super::facing::Facing;
+use super::inner_order;
 use super::table::CullingTable;
 use crate::cache::CacheModel;
-use crate::first_use::FirstUse;
 use crate::geometry::Ball;
 use crate::geometry::double::{scaled, widened};
 use crate::index::index32;
 use crate::mesh::Mesh;
 use crate::order::Optimizer;
-use crate::parallel;
-use crate::permutation::{FaceOrder, Permutation};
+use crate::permutation::FaceOrder;
 pub use eyes::SampledEyes;
 use face_cluster::{FaceCluster, joined};
 use merge::Price;
@@ -201,51 +200,14 @@ impl ViewClusters {
             .chain(others)
             .filter(|faces| !faces.is_empty())
             .collect();
-        let inside = self.inside(mesh, members);
         let mut starts = vec![0];
-        let mut new_to_old = Vec::with_capacity(mesh.face_count());
-        let mut rotations = Vec::with_capacity(mesh.face_count());
-        for (members, order) in inside {
-            new_to_old.extend(
-                order
-                    .new_to_old()
-                    .iter()
-                    .map(|&place| members[place as usize]),
-            );
-            rotations.extend_from_slice(order.rotations());
-            starts.push(index32(new_to_old.len()));
+        for members in &members {
+            starts.push(starts[starts.len() - 1] + index32(members.len()));
         }
-        let order = FaceOrder::new(Permutation::from_algorithm(new_to_old), rotations);
-        let order = order.expect("a rotation for each face");
+        let order = inner_order::of_groups(mesh, members, &self.optimizer);
         let ordered = mesh.with_face_order(&order);
         let error = f64::from(self.position_error.max(0.0));
         let table = CullingTable::within(&ordered, &starts, error, eyes);
         ClusteredFaces { order, table }
-    }
-
-    /// The order of the faces of each cluster.
-    fn inside(&self, mesh: &Mesh, clusters: Vec<Vec<u32>>) -> Vec<(Vec<u32>, FaceOrder)> {
-        // Some clusters are one piece of work, so that few tables of all vertices are made.
-        let share = (clusters.len() / 64).max(1);
-        let mut clusters = clusters.into_iter();
-        let mut pieces = Vec::new();
-        while clusters.len() > 0 {
-            pieces.push(clusters.by_ref().take(share).collect());
-        }
-        let ordered = parallel::map(pieces, |piece: Vec<Vec<u32>>| {
-            let corners = piece.iter().map(|members| 3 * members.len()).sum();
-            let mut numbers = FirstUse::new(mesh.vertex_count(), corners);
-            let order = |members: Vec<u32>| {
-                let faces = members.iter().map(|&face| mesh.faces()[face as usize]);
-                let faces: Vec<[u32; 3]> = faces
-                    .map(|face| face.map(|vertex| numbers.number(vertex)))
-                    .collect();
-                numbers.finish();
-                let order = self.optimizer.face_order(&faces);
-                (members, order)
-            };
-            piece.into_iter().map(order).collect::<Vec<_>>()
-        });
-        ordered.into_iter().flatten().collect()
     }
 }
