@@ -10,12 +10,13 @@ use meshweft::files::Document;
 use meshweft::operations::{self, OptimizeReport, Options};
 
 use crate::run::arguments::{Reading, Run};
+use crate::run::ending::{Ending, where_it_went};
 use crate::run::jobs::{Job, Jobs};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
 use crate::run::side_file::PERMUTATION;
 use crate::run::watch::Watch;
-use crate::run::{self, Outcome, output, write};
+use crate::run::{self, Outcome, write};
 
 #[derive(Debug, Args)]
 pub(crate) struct Optimize {
@@ -79,21 +80,20 @@ fn optimize(
     let permutation = || report.permutations_to_json();
     let beside = arguments.write_permutation.as_deref();
     let beside = beside.map(|path| (&PERMUTATION, path, &permutation as &dyn Fn() -> String));
-    let to = (&arguments.run, &jobs.outputs);
-    let written = write::write_with_side_file(job, &document, to, report.is_changed(), beside)?;
-    let mut renamed = Vec::new();
-    if let Some(written) = written {
-        report.set_output(&job.target, written.bytes);
-        report.add_written(&written);
-        renamed = write::renamed_lines(job, &written);
-    }
-    report.seconds = Some(start.elapsed().as_secs_f64());
-
+    let ending = Ending {
+        job,
+        jobs,
+        run: &arguments.run,
+        start,
+        beside,
+    };
+    let ended = ending.write(&document, report.is_changed())?;
+    let notes = ended.tell(&mut report.of_file);
     Ok(Outcome {
         json: report.to_json(),
         total: report.total_to_json(),
         text: text(&report),
-        notes: [output::note_lines(&report.file, &report.notes), renamed].concat(),
+        notes,
     })
 }
 
@@ -102,7 +102,7 @@ fn text(report: &OptimizeReport) -> String {
     let (before, after) = (&report.total.before, &report.total.after);
     let mut text = format!(
         "{}\n  {} faces, {} vertices",
-        report.file.display(),
+        report.of_file.file.display(),
         before.faces,
         before.vertices,
     );
@@ -145,15 +145,6 @@ fn text(report: &OptimizeReport) -> String {
         text += &format!("\n  misses more in: {}", worse_in.join(", "));
     }
 
-    text += &match (report.is_changed(), &report.output) {
-        (true, Some(output)) => format!("\n  written to {}", output.display()),
-        (false, Some(output)) => format!("\n  nothing to improve: copied to {}", output.display()),
-        (true, None) => "\n  not written: dry run".to_owned(),
-        (false, None) => "\n  nothing to improve: left as it is".to_owned(),
-    };
-    if report.copied > 0 {
-        let s = if report.copied == 1 { "" } else { "s" };
-        text += &format!("\n  copied {} file{s} that it names", report.copied);
-    }
-    text
+    let unchanged = ["nothing to improve", "left as it is"];
+    text + &where_it_went(&report.of_file, report.is_changed(), unchanged)
 }

@@ -16,12 +16,13 @@ use meshweft::operations::{
 
 use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::{Reading, Run};
+use crate::run::ending::{Ending, where_it_went};
 use crate::run::jobs::{Job, Jobs};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
 use crate::run::side_file::{LEVELS, PLOT, SideFile};
 use crate::run::watch::Watch;
-use crate::run::{self, Outcome, output, write};
+use crate::run::{self, Outcome, write};
 use crate::usage::Usage;
 
 #[derive(Debug, Args)]
@@ -182,25 +183,24 @@ fn simplify(
     let levels = || report.removals_to_json();
     let beside = arguments.write_levels.as_deref();
     let beside = beside.map(|path| (&LEVELS, path, &levels as &dyn Fn() -> String));
-    let to = (&arguments.run, &jobs.outputs);
-    let written = write::write_with_side_file(job, &document, to, report.is_changed(), beside)?;
-    let mut renamed = Vec::new();
-    if let Some(written) = written {
-        report.set_output(&job.target, written.bytes);
-        report.add_written(&written);
-        renamed = write::renamed_lines(job, &written);
-    }
+    let ending = Ending {
+        job,
+        jobs,
+        run: &arguments.run,
+        start,
+        beside,
+    };
+    let ended = ending.write(&document, report.is_changed())?;
     if let Some(file) = arguments.plot.as_ref().filter(|_| !arguments.run.dry_run) {
         PLOT.check(file, arguments.run.force)?;
         fs::write(file, plot(&report)).with_context(|| file.display().to_string())?;
     }
-    report.seconds = Some(start.elapsed().as_secs_f64());
-
+    let notes = ended.tell(&mut report.of_file);
     Ok(Outcome {
         json: report.to_json(),
         total: report.total_to_json(),
         text: text(&report),
-        notes: [output::note_lines(&report.file, &report.notes), renamed].concat(),
+        notes,
     })
 }
 
@@ -244,7 +244,7 @@ fn text(report: &SimplifyReport) -> String {
     let (before, after) = (&report.total.before, &report.total.after);
     let mut text = format!(
         "{}\n  {} -> {} faces, {} -> {} vertices",
-        report.file.display(),
+        report.of_file.file.display(),
         before.faces,
         after.faces,
         before.vertices,
@@ -267,17 +267,8 @@ fn text(report: &SimplifyReport) -> String {
         text += &format!("\n  {line}");
     }
 
-    text += &match (report.is_changed(), &report.output) {
-        (true, Some(output)) => format!("\n  written to {}", output.display()),
-        (false, Some(output)) => format!("\n  nothing left: copied to {}", output.display()),
-        (true, None) => "\n  not written: dry run".to_owned(),
-        (false, None) => "\n  nothing left: the file stays as it is".to_owned(),
-    };
-    if report.copied > 0 {
-        let s = if report.copied == 1 { "" } else { "s" };
-        text += &format!("\n  copied {} file{s} that it names", report.copied);
-    }
-    text
+    let unchanged = ["nothing left", "the file stays as it is"];
+    text + &where_it_went(&report.of_file, report.is_changed(), unchanged)
 }
 
 /// The object that is farthest from its source, as a share of its diagonal.

@@ -87,7 +87,10 @@ fn a_document_gets_better_keeps_its_triangles_and_settles() {
             let (same, report) = optimized(&again, &options);
             assert!(!report.is_changed(), "{target}, {effort:?}");
             assert_eq!(bytes(&same), again.as_bytes());
-            assert_eq!(report.bytes_after, Some(report.bytes_before));
+            assert_eq!(
+                report.of_file.bytes_after,
+                Some(report.of_file.bytes_before)
+            );
         }
     }
 }
@@ -218,8 +221,8 @@ fn worse_is_taken_only_if_allowed() {
 fn reports_have_one_schema() {
     let text = obj();
     let (after, mut report) = optimized(&text, &Options::default());
-    report.seconds = Some(1.5);
-    report.set_output(Path::new("out.obj"), 77);
+    report.of_file.seconds = Some(1.5);
+    report.of_file.set_output(Path::new("out.obj"), 77);
     let reports = [
         ("optimize", report.to_json()),
         (

@@ -13,10 +13,11 @@ use meshweft::operations::{self, CullOptions, CullOutcome, CullReport};
 use meshweft::order::Target;
 
 use crate::run::arguments::{Reading, Run};
+use crate::run::ending::{Ending, where_it_went};
 use crate::run::jobs::{Job, Jobs};
 use crate::run::output::Report;
 use crate::run::watch::Watch;
-use crate::run::{self, Outcome, output, write};
+use crate::run::{self, Outcome};
 use crate::usage::Usage;
 
 #[derive(Debug, Args)]
@@ -34,7 +35,11 @@ pub(super) struct Build {
     /// What an eye is expected to cost is the mean over them; none is shown less than it sees. A file is a JSON array of 1 to 448
     /// camera positions in the space of the meshes, such as [[0, 1.5, 4], [2, 1.5, 0]]; [x, y, z, 0] is a direction towards
     /// the viewer. A position that comes more often weighs more.
-    #[arg(long, value_name = "EYES", display_order = 1)]
+    #[arg(
+        long,
+        value_name = "near|far|orthographic|FILE.json",
+        display_order = 1
+    )]
     eyes: Option<String>,
     /// Cost of one more visible face, in transformed vertices: with more, clusters fit what is seen more tightly
     #[arg(long, value_name = "COST", display_order = 1, default_value_t = CullOptions::default().clusters.face_cost, value_parser = cost)]
@@ -144,21 +149,20 @@ fn build(
     let mut report = operations::cull_build(&mut document, options, &watch)?;
     watch.finish();
 
-    let to = (&arguments.run, &jobs.outputs);
-    let written = write::write_with_side_file(job, &document, to, report.is_changed(), None)?;
-    let mut renamed = Vec::new();
-    if let Some(written) = written {
-        report.set_output(&job.target, written.bytes);
-        report.add_written(&written);
-        renamed = write::renamed_lines(job, &written);
-    }
-    report.seconds = Some(start.elapsed().as_secs_f64());
-
+    let ending = Ending {
+        job,
+        jobs,
+        run: &arguments.run,
+        start,
+        beside: None,
+    };
+    let ended = ending.write(&document, report.is_changed())?;
+    let notes = ended.tell(&mut report.of_file);
     Ok(Outcome {
         json: report.to_json(),
         total: report.total_to_json(),
         text: text(&report),
-        notes: [output::note_lines(&report.file, &report.notes), renamed].concat(),
+        notes,
     })
 }
 
@@ -167,7 +171,7 @@ fn text(report: &CullReport) -> String {
     let [meshes, faces, clusters] = report.count(|it| *it == CullOutcome::Clusters);
     let mut text = format!(
         "{}\n  {} with {faces} faces in {clusters} clusters",
-        report.file.display(),
+        report.of_file.file.display(),
         counted(meshes, "mesh", "meshes")
     );
     for line in reasons(report) {
@@ -176,17 +180,8 @@ fn text(report: &CullReport) -> String {
     if !report.lost.is_empty() {
         text += &format!("\n  left out: {}", report.lost.join(", "));
     }
-    text += &match (report.is_changed(), &report.output) {
-        (true, Some(output)) => format!("\n  written to {}", output.display()),
-        (false, Some(output)) => format!("\n  no table: copied to {}", output.display()),
-        (true, None) => "\n  not written: dry run".to_owned(),
-        (false, None) => "\n  no table: left as it is".to_owned(),
-    };
-    if report.copied > 0 {
-        let files = counted(report.copied, "file", "files");
-        text += &format!("\n  copied {files} that it names");
-    }
-    text
+    let unchanged = ["no table", "left as it is"];
+    text + &where_it_went(&report.of_file, report.is_changed(), unchanged)
 }
 
 /// Each reason why meshes are always drawn or have no table, with the first of them.

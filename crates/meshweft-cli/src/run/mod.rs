@@ -1,11 +1,12 @@
 //! A run over many files: what the verbs that write files have in common.
 //!
 //! Such a verb has the flags [`Run`] and [`Reading`](arguments::Reading), finds its files with
-//! [`Jobs::new`](jobs::Jobs::new), hands the work on one of them to [`over_files`], and writes with
-//! [`write_with_side_file`](write::write_with_side_file).
+//! [`Jobs::new`](jobs::Jobs::new), hands the work on one of them to [`over_files`], and ends it with
+//! [`Ending`](ending::Ending).
 
 pub(crate) mod arguments;
 mod batch;
+pub(crate) mod ending;
 pub(crate) mod inputs;
 mod interrupt;
 pub(crate) mod jobs;

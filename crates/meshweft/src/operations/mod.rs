@@ -24,6 +24,8 @@ mod cull;
 #[cfg(feature = "files")]
 mod facets;
 #[cfg(feature = "files")]
+mod file_report;
+#[cfg(feature = "files")]
 mod improve;
 #[cfg(feature = "files")]
 mod improved;
@@ -63,6 +65,8 @@ pub use cull::{
     CullStatsOptions, CullStatsReport, CulledMesh, CullingFigures, ViewSums, cull_build,
     cull_stats, eyes_by_name, eyes_of_json,
 };
+#[cfg(feature = "files")]
+pub use file_report::FileReport;
 pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};
 #[cfg(feature = "files")]
 pub use inspect::{InspectReport, inspect};

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::{Path, PathBuf};
 
 use super::counts::{Counts, USUAL_CACHES};
+use super::file_report::FileReport;
 use super::improve::{Improvement, improve};
 use super::options::{Options, OptionsError};
 use crate::cache::CacheModel;
-use crate::files::{Document, FileError, Note, Written};
+use crate::files::{Document, FileError};
 use crate::order::Target;
 use crate::permutation::{FaceOrder, VertexOrder};
 use crate::progress::Progress;
@@ -120,18 +120,8 @@ impl std::error::Error for OptimizeError {}
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct OptimizeReport {
-    /// The file that was read.
-    pub file: PathBuf,
-    /// The file that was written, if any: set by the caller.
-    pub output: Option<PathBuf>,
-    /// Size of the file and of the buffers beside it that were read.
-    pub bytes_before: u64,
-    /// The same of what was written, or the size before where nothing is changed.
-    pub bytes_after: Option<u64>,
-    /// How many files that it names were copied along: set by the caller.
-    pub copied: usize,
-    /// How long it took: set by the caller, who has a clock.
-    pub seconds: Option<f64>,
+    /// The file, and where it went.
+    pub of_file: FileReport,
     /// What was asked for.
     pub options: Options,
     /// Each mesh.
@@ -140,8 +130,6 @@ pub struct OptimizeReport {
     pub total: CountChange,
     /// Whether the caller stopped it before it was settled.
     pub is_stopped: bool,
-    /// What cannot be re-ordered, and why.
-    pub notes: Vec<Note>,
     /// The vertex orders of the groups that were moved.
     vertex_orders: BTreeMap<usize, VertexOrder>,
 }
@@ -210,23 +198,17 @@ impl OptimizeReport {
 
         let vertex_orders = improvement.vertices.into_iter();
         let mut report = Self {
-            file: document.path().to_owned(),
-            output: None,
-            bytes_before: document.source_bytes(),
-            bytes_after: None,
-            copied: 0,
-            seconds: None,
+            of_file: FileReport::of(document),
             options: options.clone(),
             meshes: meshes.collect(),
             total,
             is_stopped: improvement.is_stopped,
-            notes: document.notes().to_vec(),
             vertex_orders: vertex_orders
                 .map(|(group, change)| (group, change.order))
                 .collect(),
         };
         if !report.is_changed() {
-            report.bytes_after = Some(report.bytes_before);
+            report.of_file.bytes_after = Some(report.of_file.bytes_before);
         }
         report
     }
@@ -269,17 +251,5 @@ impl OptimizeReport {
         worse
             .map(|((model, _), _)| *model)
             .filter(|model| models.contains(model))
-    }
-
-    /// Adds where the document went and what it takes there.
-    pub fn set_output(&mut self, output: &Path, bytes: u64) {
-        self.output = Some(output.to_owned());
-        self.bytes_after = Some(bytes);
-    }
-
-    /// Adds what was copied along, and what there is to say about writing.
-    pub fn add_written(&mut self, written: &Written) {
-        self.copied += written.copied.len();
-        self.notes.extend(written.notes.iter().cloned());
     }
 }

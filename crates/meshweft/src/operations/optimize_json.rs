@@ -15,13 +15,7 @@ impl OptimizeReport {
     pub fn to_json(&self) -> String {
         let meshes = 0..self.meshes.len();
         let mode = self.options.greedy.unwrap_or_default().mode;
-        let mut report = json::file_head(
-            "optimize",
-            [Some(&self.file), self.output.as_deref()],
-            (self.bytes_before, self.bytes_after),
-            self.copied,
-            self.seconds,
-        );
+        let mut report = self.of_file.json_head("optimize");
         let mut insert = |key: &str, value: Value| report.insert(key.into(), value);
         insert("cache", json!(self.options.target.to_string()));
         insert("effort", json!(self.options.effort.to_string()));
@@ -31,7 +25,7 @@ impl OptimizeReport {
         insert("total", self.total_json_value());
         let worse_in = self.worse_in().map(|model| json!(model.to_string()));
         insert("worse_in", worse_in.collect());
-        insert("notes", json::notes(&self.notes));
+        insert("notes", json::notes(&self.of_file.notes));
         json::with_list(&report, "meshes", meshes.map(|mesh| self.mesh_json(mesh)))
     }
 
@@ -89,7 +83,10 @@ impl OptimizeReport {
         let convention = "out[i] = in[new_to_old[i]]; new corner j = old corner (j + rotation) % 3";
         let mut report = Map::new();
         report.insert("schema".into(), json!(json::SCHEMA));
-        report.insert("file".into(), json!(self.file.display().to_string()));
+        report.insert(
+            "file".into(),
+            json!(self.of_file.file.display().to_string()),
+        );
         report.insert("convention".into(), json!(convention));
         report.insert("meshes".into(), Value::Null);
         json::with_list(&report, "meshes", meshes)

@@ -168,7 +168,7 @@ fn real_scenes_get_tables_at_their_ends_and_these_stay_true() {
         always += report.count(|it| matches!(it, CullOutcome::AlwaysDrawn(_)))[0];
         left += report.count(|it| matches!(it, CullOutcome::Left(_)))[0];
         let is_told = report.meshes.len() == ordered.meshes().len()
-            && (!report.meshes.is_empty() || !report.notes.is_empty());
+            && (!report.meshes.is_empty() || !report.of_file.notes.is_empty());
         assert!(is_told, "{name}");
 
         // But for the order of faces, all of it is as it was, and the rest is after it.
@@ -482,7 +482,7 @@ fn a_damaged_table_keeps_its_primitive_with_a_note() {
         let text = "left as it is: its MESHWEFT_culling is not sound: ";
         assert!(note.text.starts_with(text), "{}", note.text);
         let report = build(&mut document);
-        assert!(!report.is_changed() && report.notes.len() == 1);
+        assert!(!report.is_changed() && report.of_file.notes.len() == 1);
         let stats = cull_stats(&document, &CullStatsOptions::default()).unwrap();
         assert!(stats.meshes.is_empty() && !stats.is_true());
         assert_eq!(document.to_main_bytes().unwrap(), bytes);

@@ -78,7 +78,11 @@ fn every_format_loses_faces_and_keeps_its_records() {
         assert_eq!(faces, report.total.after.faces, "{format}");
         assert_eq!(report.objects.len(), 1, "{format}");
         assert!(faces <= 384 && faces > 376, "{format}: {faces}");
-        assert!(report.notes.is_empty(), "{format}: {:?}", report.notes);
+        assert!(
+            report.of_file.notes.is_empty(),
+            "{format}: {:?}",
+            report.of_file.notes
+        );
         assert!(report.total.after.vertices < report.total.before.vertices);
         let object = &report.objects[0];
         assert_eq!(object.stop, StopReason::Faces);
@@ -101,7 +105,10 @@ fn nothing_to_remove_changes_nothing() {
         ] {
             let (_, report) = simplified(&sheet.bytes(format), format, &options);
             assert!(!report.is_changed() && report.objects[0].distances.is_none());
-            assert_eq!(report.bytes_after, Some(report.bytes_before));
+            assert_eq!(
+                report.of_file.bytes_after,
+                Some(report.of_file.bytes_before)
+            );
         }
     }
 }
@@ -222,11 +229,11 @@ fn what_cannot_be_simplified_is_said() {
     let (_, report) = simplified(text.as_bytes(), Format::Vrml, &ratio(0.5));
     assert!(!report.is_changed());
     assert!(
-        report.notes[0]
+        report.of_file.notes[0]
             .text
             .contains("not simplified: faces are not left out"),
         "{:?}",
-        report.notes
+        report.of_file.notes
     );
     let json: serde_json::Value = serde_json::from_str(&report.to_json()).unwrap();
     assert_eq!(json["objects"][0]["stop"], "refused");

@@ -13,6 +13,7 @@ use crate::files::{Document, Edit, FileError, Format, MeshEntry, SeenSides, Stor
 use crate::first_use::{FirstUse, keeps_blocks};
 use crate::index::index32;
 use crate::mesh::Mesh;
+use crate::operations::file_report::FileReport;
 use crate::permutation::FaceOrder;
 use crate::progress::Progress;
 
@@ -51,17 +52,17 @@ pub fn cull_build(
     progress: &dyn Progress,
 ) -> Result<CullReport, CullError> {
     options.check().map_err(CullError::Options)?;
-    let (file, bytes_before) = (document.path().to_owned(), document.source_bytes());
-    let mut notes = Vec::new();
+    let mut of_file = FileReport::of(document);
     let mut lost = Vec::new();
-    if !matches!(document.format(), Format::Gltf | Format::Glb) {
-        notes.extend_from_slice(document.notes());
+    let is_created = !matches!(document.format(), Format::Gltf | Format::Glb);
+    if is_created {
         let created = created(document, options)?;
         (*document, lost) = (created.document, created.lost);
     }
     let with_table = (0..document.meshes().len()).find(|&mesh| document.culling(mesh).is_some());
     if let Some(mesh) = with_table {
         let mesh = document.meshes()[mesh].name.clone();
+        let file = of_file.file;
         return Err(CullError::HasTable { file, mesh });
     }
 
@@ -98,19 +99,16 @@ pub fn cull_build(
 
     // All of it.
     apply(document, &meshes, &tables)?;
-    notes.extend_from_slice(document.notes());
+    match is_created {
+        true => of_file.notes.extend_from_slice(document.notes()),
+        false => of_file.notes = document.notes().to_vec(),
+    }
     Ok(CullReport {
-        file,
-        output: None,
-        bytes_before,
-        bytes_after: None,
-        copied: 0,
-        seconds: None,
+        of_file,
         options: options.clone(),
         lost,
         meshes,
         is_stopped,
-        notes,
     })
 }
 

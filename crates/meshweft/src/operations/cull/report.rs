@@ -1,12 +1,11 @@
 //! What became of the meshes of a document.
 
-use std::path::{Path, PathBuf};
-
 use serde_json::{Value, json};
 
 use super::options::CullOptions;
 use crate::culling::SampledEyes;
-use crate::files::{MeshEntry, Note, Written};
+use crate::files::MeshEntry;
+use crate::operations::file_report::FileReport;
 use crate::operations::json;
 use crate::permutation::FaceOrder;
 
@@ -14,18 +13,8 @@ use crate::permutation::FaceOrder;
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct CullReport {
-    /// The file that was read.
-    pub file: PathBuf,
-    /// The file that was written, if any: set by the caller.
-    pub output: Option<PathBuf>,
-    /// Size of the file and of the buffers beside it that were read.
-    pub bytes_before: u64,
-    /// The same of what was written.
-    pub bytes_after: Option<u64>,
-    /// How many files that it names were copied along: set by the caller.
-    pub copied: usize,
-    /// How long it took: set by the caller, who has a clock.
-    pub seconds: Option<f64>,
+    /// The file, and where it went.
+    pub of_file: FileReport,
     /// What was asked for.
     pub options: CullOptions,
     /// What the GLB does not have that was made of a file of another format.
@@ -34,8 +23,6 @@ pub struct CullReport {
     pub meshes: Vec<CulledMesh>,
     /// Whether the caller stopped it before all meshes had tables.
     pub is_stopped: bool,
-    /// What the reader of the file leaves as it is, and why.
-    pub notes: Vec<Note>,
 }
 
 /// A mesh, and what became of it.
@@ -129,28 +116,10 @@ impl CullReport {
         })
     }
 
-    /// Adds where the document went and what it takes there.
-    pub fn set_output(&mut self, output: &Path, bytes: u64) {
-        self.output = Some(output.to_owned());
-        self.bytes_after = Some(bytes);
-    }
-
-    /// Adds what was copied along, and what there is to say about writing.
-    pub fn add_written(&mut self, written: &Written) {
-        self.copied += written.copied.len();
-        self.notes.extend(written.notes.iter().cloned());
-    }
-
     /// The report as one line of JSON.
     #[must_use]
     pub fn to_json(&self) -> String {
-        let mut report = json::file_head(
-            "cull build",
-            [Some(&self.file), self.output.as_deref()],
-            (self.bytes_before, self.bytes_after),
-            self.copied,
-            self.seconds,
-        );
+        let mut report = self.of_file.json_head("cull build");
         let clusters = &self.options.clusters;
         report.insert("eyes".into(), eyes(&clusters.eyes));
         report.insert("face_cost".into(), json!(clusters.face_cost));
@@ -161,7 +130,7 @@ impl CullReport {
         report.insert("lost".into(), json!(self.lost));
         report.insert("meshes".into(), Value::Null);
         report.insert("total".into(), self.total());
-        report.insert("notes".into(), json::notes(&self.notes));
+        report.insert("notes".into(), json::notes(&self.of_file.notes));
         json::with_list(&report, "meshes", self.meshes.iter().map(CulledMesh::json))
     }
 

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::{Path, PathBuf};
 
 use super::levels::LevelFigures;
 use super::options::{SimplifyOptions, SimplifyOptionsError};
 use super::reduced::Reduced;
 use super::removals::Removals;
-use crate::files::{Document, FileError, Note, Written};
+use crate::files::{Document, FileError, Note};
 use crate::geometry::Distances;
 use crate::operations::counts::Counts;
+use crate::operations::file_report::FileReport;
 use crate::operations::optimize::{CountChange, OptimizeReport};
 use crate::progressive::StopReason;
 
@@ -41,18 +41,8 @@ impl std::error::Error for SimplifyError {}
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct SimplifyReport {
-    /// The file that was read.
-    pub file: PathBuf,
-    /// The file that was written, if any: set by the caller.
-    pub output: Option<PathBuf>,
-    /// Size of the file and of the buffers beside it that were read.
-    pub bytes_before: u64,
-    /// The same of what was written, or the size before where nothing is changed.
-    pub bytes_after: Option<u64>,
-    /// How many files that it names were copied along: set by the caller.
-    pub copied: usize,
-    /// How long it took: set by the caller, who has a clock.
-    pub seconds: Option<f64>,
+    /// The file, and where it went.
+    pub of_file: FileReport,
     /// What was asked for.
     pub options: SimplifyOptions,
     /// Each mesh.
@@ -63,8 +53,6 @@ pub struct SimplifyReport {
     pub total: CountChange,
     /// Whether the caller stopped it before it was done.
     pub is_stopped: bool,
-    /// What was left as it is, and why.
-    pub notes: Vec<Note>,
 }
 
 /// What was done to a mesh.
@@ -164,7 +152,6 @@ pub(super) fn report(parts: ReportParts<'_>) -> SimplifyReport {
     let mut meshes: Vec<SimplifiedMesh> = meshes.collect();
     let is_changed = parts.ordered.is_some();
     let total_after = parts.ordered.as_ref().map(|it| it.total.after.clone());
-    let bytes_before = document.source_bytes();
 
     // The objects.
     let mut objects = Vec::with_capacity(parts.objects.len());
@@ -201,15 +188,11 @@ pub(super) fn report(parts: ReportParts<'_>) -> SimplifyReport {
         objects.push(object);
     }
 
-    let mut notes = document.notes().to_vec();
-    notes.extend(parts.notes);
+    let mut of_file = FileReport::of(document);
+    of_file.bytes_after = (!is_changed).then_some(of_file.bytes_before);
+    of_file.notes.extend(parts.notes);
     SimplifyReport {
-        file: document.path().to_owned(),
-        output: None,
-        bytes_before,
-        bytes_after: (!is_changed).then_some(bytes_before),
-        copied: 0,
-        seconds: None,
+        of_file,
         options: parts.options.clone(),
         meshes,
         objects,
@@ -218,7 +201,6 @@ pub(super) fn report(parts: ReportParts<'_>) -> SimplifyReport {
             before: parts.total_before,
         },
         is_stopped: parts.is_stopped,
-        notes,
     }
 }
 
@@ -250,17 +232,5 @@ impl SimplifyReport {
     #[must_use]
     pub fn is_changed(&self) -> bool {
         self.objects.iter().any(SimplifiedObject::is_changed)
-    }
-
-    /// Adds where the document went and what it takes there.
-    pub fn set_output(&mut self, output: &Path, bytes: u64) {
-        self.output = Some(output.to_owned());
-        self.bytes_after = Some(bytes);
-    }
-
-    /// Adds what was copied along, and what there is to say about writing.
-    pub fn add_written(&mut self, written: &Written) {
-        self.copied += written.copied.len();
-        self.notes.extend(written.notes.iter().cloned());
     }
 }

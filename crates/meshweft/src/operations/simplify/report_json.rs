@@ -13,13 +13,7 @@ impl SimplifyReport {
     #[must_use]
     pub fn to_json(&self) -> String {
         let options = &self.options;
-        let mut report = json::file_head(
-            "simplify",
-            [Some(&self.file), self.output.as_deref()],
-            (self.bytes_before, self.bytes_after),
-            self.copied,
-            self.seconds,
-        );
+        let mut report = self.of_file.json_head("simplify");
         let mut insert = |key: &str, value: Value| report.insert(key.into(), value);
         insert("ratio", json!(options.ratio));
         insert("faces", json!(options.faces));
@@ -33,7 +27,7 @@ impl SimplifyReport {
             self.objects.iter().map(SimplifiedObject::json).collect(),
         );
         insert("total", change(&self.total).into());
-        insert("notes", json::notes(&self.notes));
+        insert("notes", json::notes(&self.of_file.notes));
         let meshes = self.meshes.iter().map(|mesh| {
             let mut object = change(&mesh.change);
             object.shift_insert(0, "name".into(), json!(mesh.name));
@@ -66,7 +60,10 @@ impl SimplifyReport {
         });
         let mut report = Map::new();
         report.insert("schema".into(), json!(json::SCHEMA));
-        report.insert("file".into(), json!(self.file.display().to_string()));
+        report.insert(
+            "file".into(),
+            json!(self.of_file.file.display().to_string()),
+        );
         report.insert("convention".into(), json!(convention));
         report.insert("meshes".into(), Value::Null);
         report.insert("objects".into(), objects.collect());
