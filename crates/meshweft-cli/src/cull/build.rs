@@ -47,6 +47,11 @@ pub(super) struct Build {
     /// Cost of one more visible cluster, in transformed vertices: with more, clusters are fewer and larger
     #[arg(long, value_name = "COST", display_order = 1, default_value_t = CullOptions::default().clusters.draw_cost, value_parser = cost)]
     draw_cost: f32,
+    /// Stripes by the normals of faces instead of clusters, this many, as by Kim and Lee; each of their 512 ranges is a cluster
+    ///
+    /// They leave out about as many faces, but faces of a range are far from each other, so more vertices are transformed.
+    #[arg(long, value_name = "V", display_order = 1, conflicts_with_all = ["eyes", "face_cost", "draw_cost"])]
+    stripes: Option<u32>,
     /// What the faces of each cluster are ordered for: a cache, a GPU or universal, as --cache of optimize
     #[arg(long, value_name = "MODEL", display_order = 1, default_value_t = CullOptions::default().clusters.optimizer.target)]
     cache: Target,
@@ -78,6 +83,7 @@ impl Build {
         options.clusters.face_cost = self.face_cost;
         options.clusters.draw_cost = self.draw_cost;
         options.clusters.optimizer.target = self.cache;
+        options.stripes = self.stripes;
         let checked = options.check();
         checked.map_err(|error| Usage(error.to_string()))?;
         Ok(options)

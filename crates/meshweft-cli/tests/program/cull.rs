@@ -180,6 +180,43 @@ fn clusters_are_made_for_eyes_and_caches() {
 }
 
 #[test]
+fn stripes_may_take_the_place_of_clusters() {
+    let folder = Folder::new("cull-stripes");
+    folder.write("ball.off", ball_off());
+    let flags = ["cull", "build", "ball.off", "--json"];
+    let built = |stripes: &str, cache: &str, to: &str| {
+        let more = ["--stripes", stripes, "--cache", cache, "-o", to];
+        let run = folder.run(&[&flags[..], &more].concat());
+        assert_eq!(run.code(), 0, "{}", run.err());
+        let report = run.json();
+        assert_eq!(report["stripes"], stripes.parse::<u32>().unwrap());
+        assert_eq!(report["total"]["in_clusters"]["faces"], 512);
+        let stats = folder.run(&["cull", "stats", to, "--json"]).json();
+        assert_eq!(stats["total"]["clusters"], report["total"]["clusters"]);
+        stats
+    };
+    let views = built("8", "fifo:16", "stripes.glb");
+    let views = views["total"]["views"].as_array().unwrap();
+    let drawn = views.iter().map(|view| view["drawn"].as_f64().unwrap());
+    assert!(drawn.clone().all(|drawn| drawn < 0.8), "{views:?}");
+    let run = folder.run(&["compare", "ball.off", "stripes.glb"]);
+    assert_eq!(run.code(), 0, "{}{}", run.out(), run.err());
+    built("1", "universal", "one.glb");
+
+    for (more, expected) in [
+        (["--stripes", "0"], "0 stripes: give 1 to 4096"),
+        (["--stripes", "4097"], "4097 stripes: give 1 to 4096"),
+        (["--stripes=8", "--draw-cost=1"], "cannot be used with"),
+        (["--stripes=8", "--eyes=near"], "cannot be used with"),
+    ] {
+        let run = folder.run(&[&flags[..], &more, &["-o", "no.glb"]].concat());
+        assert_eq!(run.code(), 2, "{}", run.err());
+        assert!(run.err().contains(expected), "{}", run.err());
+        assert!(!folder.0.join("no.glb").exists());
+    }
+}
+
+#[test]
 fn eyes_and_caches_that_are_none_are_refused() {
     let folder = Folder::new("cull-no-eyes");
     folder.write("ball.off", ball_off());

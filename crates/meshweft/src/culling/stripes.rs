@@ -173,7 +173,7 @@ pub struct StripedFaces {
     range_count: u32,
     /// Where the faces of each range begin, those of the first stripe first; then where those begin that are always
     /// drawn, and how many faces there are.
-    pub(super) starts: Vec<u32>,
+    starts: Vec<u32>,
 }
 
 impl StripedFaces {
@@ -198,6 +198,13 @@ impl StripedFaces {
         assert!(stripe < self.stripe_count(), "stripe {stripe} of fewer");
         let start = |stripe: usize| self.starts[stripe * self.range_count as usize] as usize;
         start(stripe)..start(stripe + 1)
+    }
+
+    /// Where the faces of each range begin, as places of the new order: those of the first stripe first, then the faces that are in
+    /// none, and how many faces there are.
+    #[must_use]
+    pub fn starts(&self) -> &[u32] {
+        &self.starts
     }
 
     /// The smallest ball around all vertices of faces.

@@ -66,7 +66,7 @@ fn an_optimizer_orders_faces_inside_their_ranges() {
         );
 
         // The same faces are in each range, and so are found from the same eyes.
-        for ends in before.starts.windows(2) {
+        for ends in before.starts().windows(2) {
             let members = |striped: &StripedFaces| {
                 let range = ends[0] as usize..ends[1] as usize;
                 let mut faces = striped.order().new_to_old()[range].to_vec();
@@ -75,7 +75,7 @@ fn an_optimizer_orders_faces_inside_their_ranges() {
             };
             assert_eq!(members(&before), members(&after));
         }
-        assert_eq!(before.starts, after.starts);
+        assert_eq!(before.starts(), after.starts());
 
         // Clusters are ordered likewise.
         let clusters = ViewClusters {

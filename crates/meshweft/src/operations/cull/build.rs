@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::created::created;
 use super::options::{CullError, CullOptions};
 use super::report::{CullOutcome, CullReport, CulledMesh};
-use crate::culling::{CullingTable, ViewClusters};
+use crate::culling::{CullingTable, NormalStripes};
 use crate::error::MeshError;
 use crate::files::{Document, Edit, FileError, Format, MeshEntry, SeenSides, StoredCulling};
 use crate::first_use::{FirstUse, keeps_blocks};
@@ -33,7 +33,7 @@ use crate::progress::Progress;
 /// [`CullError`]: the options are not sound, a mesh has a table already, or a GLB would lose something that the options do not let go.
 ///
 /// # Complexity
-/// That of [`ViewClusters`] on each mesh.
+/// That of [`ViewClusters`](crate::culling::ViewClusters), or of [`NormalStripes`], on each mesh.
 ///
 /// ```no_run
 /// use std::path::Path;
@@ -81,8 +81,8 @@ pub fn cull_build(
     for (number, (entry, sides)) in document.meshes().iter().zip(sides).enumerate() {
         let mut mesh = CulledMesh::left(entry, String::new());
         let positions = positions_of(document, shared.as_deref(), number)?;
-        let clusters = (!is_stopped).then_some(&options.clusters);
-        match clustered(entry, positions.as_deref(), sides, clusters) {
+        let options = (!is_stopped).then_some(options);
+        match clustered(entry, positions.as_deref(), sides, options) {
             Err(why) => mesh.outcome = CullOutcome::Left(why),
             Ok(clustered) => {
                 mesh.outcome = clustered.outcome;
@@ -140,7 +140,7 @@ fn clustered(
     entry: &MeshEntry,
     positions: Option<&[[f32; 3]]>,
     sides: Result<SeenSides, &'static str>,
-    clusters: Option<&ViewClusters>,
+    options: Option<&CullOptions>,
 ) -> Result<Clustered, String> {
     let sides = sides?;
     let face_count = entry.mesh.face_count();
@@ -172,16 +172,32 @@ fn clustered(
     }
 
     // The others.
-    let clusters = clusters.ok_or("the work was stopped")?;
+    let options = options.ok_or("the work was stopped")?;
     let mesh = compact(entry, positions).map_err(|error| error.to_string())?;
-    let ordered = clusters.order(&mesh);
-    let table = stored(ordered.table());
+    let (order, table) = ordered(&mesh, options);
     check(&table)?;
     Ok(Clustered {
-        order: ordered.order().clone(),
+        order,
         table,
         outcome: CullOutcome::Clusters,
     })
+}
+
+/// The faces in clusters, or in stripes of which each range is one.
+fn ordered(mesh: &Mesh, options: &CullOptions) -> (FaceOrder, StoredCulling) {
+    let Some(count) = options.stripes else {
+        let clustered = options.clusters.order(mesh);
+        return (clustered.order().clone(), stored(clustered.table()));
+    };
+    let stripes = NormalStripes {
+        stripe_count: Some(count),
+        optimizer: Some(options.clusters.optimizer.clone()),
+        ..NormalStripes::default()
+    };
+    let striped = stripes.order(mesh);
+    let in_order = mesh.with_face_order(striped.order());
+    let table = CullingTable::new(&in_order, striped.starts());
+    (striped.order().clone(), stored(&table))
 }
 
 /// Whether a file may have such a table.

@@ -13,11 +13,17 @@ use crate::operations::options::{OptionsError, check_target};
 pub struct CullOptions {
     /// How clusters are made.
     pub clusters: ViewClusters,
+    /// Stripes by the normals of faces instead, this many ([`NormalStripes`](crate::culling::NormalStripes)): each range of a stripe
+    /// is a cluster. Their faces are ordered by the optimizer of [`clusters`](Self::clusters).
+    pub stripes: Option<u32>,
     /// For formats other than glTF: keep only names of meshes, positions and faces.
     pub drop_attributes: bool,
 }
 
 impl CullOptions {
+    /// More stripes would have more ranges than most meshes have faces.
+    pub const MOST_STRIPES: u32 = 4096;
+
     /// Whether clusters can be made like this; `cull_build` checks it first.
     ///
     /// # Errors
@@ -25,6 +31,12 @@ impl CullOptions {
     pub fn check(&self) -> Result<(), CullOptionsError> {
         let target = self.clusters.optimizer.target;
         check_target(target).map_err(CullOptionsError::Ordering)?;
+        if let Some(count) = self
+            .stripes
+            .filter(|count| !(1..=Self::MOST_STRIPES).contains(count))
+        {
+            return Err(CullOptionsError::Stripes { count });
+        }
         match self.clusters.eyes.count() {
             0 => Err(CullOptionsError::NoEyes),
             count if count > SampledEyes::MOST => Err(CullOptionsError::TooManyEyes { count }),
@@ -39,6 +51,11 @@ impl CullOptions {
 pub enum CullOptionsError {
     /// Faces are not ordered for that.
     Ordering(OptionsError),
+    /// Not 1 to [`CullOptions::MOST_STRIPES`] stripes.
+    Stripes {
+        /// How many were asked for.
+        count: u32,
+    },
     /// No eye is asked for.
     NoEyes,
     /// More than [`SampledEyes::MOST`] are.
@@ -52,6 +69,13 @@ impl fmt::Display for CullOptionsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Ordering(error) => error.fmt(f),
+            Self::Stripes { count } => {
+                write!(
+                    f,
+                    "{count} stripes: give 1 to {}",
+                    CullOptions::MOST_STRIPES
+                )
+            }
             Self::NoEyes => f.write_str("clusters are made for some eyes: give one at least"),
             Self::TooManyEyes { count } => write!(
                 f,

@@ -126,6 +126,7 @@ impl CullReport {
         report.insert("draw_cost".into(), json!(clusters.draw_cost));
         let target = clusters.optimizer.target.to_string();
         report.insert("cache".into(), json!(target));
+        report.insert("stripes".into(), json!(self.options.stripes));
         report.insert("stopped".into(), json!(self.is_stopped));
         report.insert("lost".into(), json!(self.lost));
         report.insert("meshes".into(), Value::Null);
