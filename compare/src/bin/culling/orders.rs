@@ -24,6 +24,8 @@ pub(crate) enum Visible {
     Whole([Range<u32>; 1]),
     /// By the library, in memory that is used again.
     Ours(Find, Ranges),
+    /// The same, joined so that each view in turn has at most a number of ranges.
+    Fewer(Find, Ranges, Vec<usize>),
     /// By meshoptimizer's cones, each with the faces of its meshlet.
     Rivals(Vec<(Cone, Range<u32>)>, Vec<Range<u32>>),
 }
@@ -38,12 +40,17 @@ type Make = fn(&Meshlets, &Mesh) -> MeshletMesh;
 type Cone = ([f32; 3], [f32; 3], f32);
 
 impl Visible {
-    /// The ranges for an eye.
-    pub(crate) fn ranges(&mut self, eye: Eye) -> &[Range<u32>] {
+    /// The ranges for an eye, that of a view of all.
+    pub(crate) fn ranges(&mut self, eye: Eye, view: usize) -> &[Range<u32>] {
         match self {
             Self::Whole(all) => all,
             Self::Ours(find, ranges) => {
                 find(eye, ranges);
+                ranges.as_slice()
+            }
+            Self::Fewer(find, ranges, most) => {
+                find(eye, ranges);
+                ranges.join_to(most[view]);
                 ranges.as_slice()
             }
             Self::Rivals(meshlets, ranges) => {
@@ -80,6 +87,9 @@ pub(crate) const CLUSTERS: &str = "**clusters**";
 /// The same, with the faces of each in an order for an NVIDIA card.
 pub(crate) const CLUSTERS_FOR_CARD: &str = "**clusters, nvidia**";
 
+/// The same as the first, with at most these numbers of draws, view by view.
+pub(crate) const FEWER_DRAWS: &str = "clusters, fewer draws";
+
 /// Orders that are drawn as a whole: meshoptimizer's and the library's.
 pub(crate) fn whole(mesh: &Mesh) -> Vec<Order> {
     let rival = || Meshopt::VertexCache.ordered(mesh);
@@ -95,8 +105,8 @@ pub(crate) fn whole(mesh: &Mesh) -> Vec<Order> {
     ]
 }
 
-/// The library's orders that leave faces out.
-pub(crate) fn ours(mesh: &Mesh) -> Vec<Order> {
+/// The library's orders that leave faces out; the last one with at most so many draws, if numbers are given for all views.
+pub(crate) fn ours(mesh: &Mesh, most_draws: Option<Vec<usize>>) -> Vec<Order> {
     let mut orders = Vec::new();
 
     let (seconds, striped) = timed(|| NormalStripes::default().order(mesh));
@@ -143,6 +153,18 @@ pub(crate) fn ours(mesh: &Mesh) -> Vec<Order> {
         orders.push(culled(mesh, name, seconds, &order, Box::new(find)));
     }
 
+    if let Some(most) = most_draws {
+        let (seconds, clustered) = timed(|| ViewClusters::default().order(mesh));
+        let order = clustered.order().clone();
+        let find = move |eye: Eye, ranges: &mut Ranges| {
+            clustered.table().visible_ranges(eye, ranges);
+        };
+        let mut fewer = culled(mesh, FEWER_DRAWS, seconds, &order, Box::new(find));
+        if let Visible::Ours(find, ranges) = fewer.visible {
+            fewer.visible = Visible::Fewer(find, ranges, most);
+        }
+        orders.push(fewer);
+    }
     orders
 }
 
