@@ -10,6 +10,15 @@ use crate::permutation::{FaceOrder, Permutation};
 ///
 /// The result is the same on any number of threads.
 pub(super) fn of_groups(mesh: &Mesh, groups: Vec<Vec<u32>>, optimizer: &Optimizer) -> FaceOrder {
+    joined(each(mesh, groups, optimizer))
+}
+
+/// Groups of faces, each with an order of its own.
+pub(super) fn each(
+    mesh: &Mesh,
+    groups: Vec<Vec<u32>>,
+    optimizer: &Optimizer,
+) -> Vec<(Vec<u32>, FaceOrder)> {
     // Some groups are one piece of work, so that few tables of all vertices are made.
     let share = (groups.len() / 64).max(1);
     let mut groups = groups.into_iter();
@@ -31,11 +40,15 @@ pub(super) fn of_groups(mesh: &Mesh, groups: Vec<Vec<u32>>, optimizer: &Optimize
         };
         piece.into_iter().map(order).collect::<Vec<_>>()
     });
+    ordered.into_iter().flatten().collect()
+}
 
-    // All groups as one order.
-    let mut new_to_old = Vec::with_capacity(mesh.face_count());
-    let mut rotations = Vec::with_capacity(mesh.face_count());
-    for (members, order) in ordered.into_iter().flatten() {
+/// All groups as one order: they have each face once.
+pub(super) fn joined(groups: Vec<(Vec<u32>, FaceOrder)>) -> FaceOrder {
+    let count = groups.iter().map(|(members, _)| members.len()).sum();
+    let mut new_to_old = Vec::with_capacity(count);
+    let mut rotations = Vec::with_capacity(count);
+    for (members, order) in groups {
         let places = order.new_to_old().iter();
         new_to_old.extend(places.map(|&place| members[place as usize]));
         rotations.extend((0..order.len()).map(|face| order.rotation(face)));

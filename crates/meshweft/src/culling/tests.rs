@@ -127,7 +127,14 @@ fn clusters_by_view_leave_out_no_front_face() {
     let mut all = 0;
     for case in 0..cases(40) {
         let mesh = any_mesh(case, &mut random);
-        let clustered = ViewClusters::default().order(&mesh);
+        let clusters = ViewClusters {
+            optimizer: Optimizer::for_cache(match case % 2 {
+                0 => CacheModel::fifo(16),
+                _ => CacheModel::Nvidia,
+            }),
+            ..ViewClusters::default()
+        };
+        let clustered = clusters.order(&mesh);
         let order = clustered.order().new_to_old();
         let striped = NormalStripes::default().order(&mesh);
         let mut ranges = Ranges::default();

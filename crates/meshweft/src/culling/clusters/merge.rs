@@ -14,10 +14,11 @@ pub(super) const MOST_AROUND: usize = 64;
 /// A cluster does not grow larger: one that always gains, in a mesh of faces that all eyes see, would take time by the square of it.
 const MOST_FACES: u32 = 1 << 13;
 
-/// What a cluster is expected to cost: the share of eyes that see something of it, times its vertices, plus `face` for each of its
-/// faces, plus `draw`.
+/// What a cluster is expected to cost: the share of eyes that see something of it, times `vertex` for each of its vertices, plus
+/// `face` for each of its faces, plus `draw`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Price {
+    pub(super) vertex: f32,
     pub(super) face: f32,
     pub(super) draw: f32,
 }
@@ -25,7 +26,7 @@ pub(super) struct Price {
 impl Price {
     #[inline]
     pub(super) fn weight(self, vertices: u32, faces: u32) -> f32 {
-        vertices as f32 + self.face * faces as f32 + self.draw
+        self.vertex * vertices as f32 + self.face * faces as f32 + self.draw
     }
 }
 

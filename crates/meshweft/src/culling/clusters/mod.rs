@@ -8,15 +8,18 @@
 //! 2. `merge`: each face is a cluster; the two neighbours that save most become one, as long as that saves anything. A
 //!    cluster has the bits of all its faces. `parts` does that side by side.
 //!    `moves` then puts single faces into a neighbouring cluster where they cost less.
-//! 3. `tour`: clusters that are seen from nearly the same eyes come after each other, so that draws are few.
-//! 4. The faces of each cluster are put in an order for the cache, and [`CullingTable`] bounds from where it is seen.
+//! 3. For an NVIDIA card, `moves` makes more clusters multiples of 32 faces, and `batches` makes all of them whole batches.
+//! 4. `tour`: clusters that are seen from nearly the same eyes come after each other, so that draws are few.
+//! 5. The faces of each cluster are put in an order for the cache, and [`CullingTable`] bounds from where it is seen.
 
+mod batches;
 mod eyes;
 mod face_cluster;
 mod masks;
 mod merge;
 mod moves;
 mod parts;
+mod seen;
 #[cfg(test)]
 mod tests;
 mod tour;
@@ -30,11 +33,12 @@ use crate::geometry::Ball;
 use crate::geometry::double::{scaled, widened};
 use crate::index::index32;
 use crate::mesh::Mesh;
-use crate::order::Optimizer;
+use crate::order::{Optimizer, Target};
 use crate::permutation::FaceOrder;
 pub use eyes::SampledEyes;
-use face_cluster::{FaceCluster, joined};
+use face_cluster::in_tour;
 use merge::Price;
+use seen::Seen;
 
 /// Clusters of neighbouring faces that are seen from the same eyes, for few vertices and few draws.
 ///
@@ -66,7 +70,9 @@ pub struct ViewClusters {
     pub face_cost: f32,
     /// *λ*: what another cluster costs, in vertices. With more, clusters are larger and fewer.
     pub draw_cost: f32,
-    /// What puts the faces of each cluster in order.
+    /// What puts the faces of each cluster in order. For [`CacheModel::Nvidia`] clusters are whole batches of the card: most have a
+    /// multiple of 32 faces, and where vertices stand in blocks of 65,536, as [`vertex_blocks`](crate::order::vertex_blocks())
+    /// numbers them, no batch has faces of two blocks.
     pub optimizer: Optimizer,
     /// How far each position may be from where it is drawn, in the units of positions: half a step of the lattice where they
     /// are rounded afterwards, times √3.
@@ -109,8 +115,15 @@ impl ClusteredFaces {
 /// More would not change anything.
 const MOST_COST: f32 = 1e6;
 
-/// More clusters than this are joined along a curve, and stay in its order if as many are left.
-const MOST_TO_ORDER: usize = 20_000;
+/// How much of what a vertex costs goes to the faces, for a card. With more, clusters are smaller and draws more.
+const FOR_CARD: f32 = 0.6;
+
+/// The direction from the middle of a ball towards an eye.
+fn direction(eye: Eye, ball: Ball) -> [f64; 3] {
+    let [x, y, z, _] = eye.around(ball.center).unwrap_or([0.0; 4]);
+    let length = (x * x + y * y + z * z).sqrt();
+    scaled([x, y, z], if length > 0.0 { 1.0 / length } else { 0.0 })
+}
 
 impl ViewClusters {
     /// The faces of a mesh in clusters.
@@ -153,61 +166,83 @@ impl ViewClusters {
         eyes: &[Eye],
     ) -> ClusteredFaces {
         // Faces that are seen from one side, and the others.
-        let mut seen = Vec::with_capacity(mesh.face_count());
+        let mut faces = Vec::with_capacity(mesh.face_count());
         let mut others = [Vec::new(), Vec::new()];
         for (number, face) in (0..).zip(mesh.faces()) {
             let corners = face.map(|vertex| widened(mesh.positions()[vertex as usize]));
             match Facing::of(corners, ball.center) {
-                Facing::Plane(_) => seen.push(number),
+                Facing::Plane(_) => faces.push(number),
                 Facing::Unknown => others[0].push(number),
                 Facing::Never => others[1].push(number),
             }
         }
 
         // Clusters, in the order of a tour.
-        let masks = masks::of_faces::<WORDS>(mesh, &seen, ball.center, eyes);
-        // NaN costs nothing too.
-        let cost = |cost: f32| if cost > 0.0 { cost.min(MOST_COST) } else { 0.0 };
-        let price = Price {
-            face: cost(self.face_cost),
-            draw: cost(self.draw_cost),
+        let masks = masks::of_faces::<WORDS>(mesh, &faces, ball.center, eyes);
+        let directions: Vec<[f64; 3]> = eyes.iter().map(|eye| direction(*eye, ball)).collect();
+        let seen = Seen {
+            mesh,
+            faces: &faces,
+            masks: &masks,
+            directions: &directions,
         };
-        let mut clusters = parts::clusters(mesh, &seen, &masks, price);
-        let direction = |eye: &Eye| {
-            let [x, y, z, _] = eye.around(ball.center).unwrap_or([0.0; 4]);
-            let length = (x * x + y * y + z * z).sqrt();
-            scaled([x, y, z], if length > 0.0 { 1.0 / length } else { 0.0 })
-        };
-        let directions: Vec<[f64; 3]> = eyes.iter().map(direction).collect();
-        let masks_of = |clusters: &[FaceCluster<WORDS>]| {
-            clusters
-                .iter()
-                .map(|cluster| cluster.mask)
-                .collect::<Vec<_>>()
-        };
-        if clusters.len() > MOST_TO_ORDER {
-            let along = tour::along_a_curve(&masks_of(&clusters), &directions);
-            clusters = joined(clusters, &along, price);
+        let (price, card) = (self.price(), self.price_for_card());
+        let mut clusters = parts::clusters(&seen, price, card);
+        if let Some(price) = card {
+            clusters = batches::clusters(&seen, clusters, price, |runs| {
+                let ordered = inner_order::each(mesh, runs, &self.optimizer).into_iter();
+                let in_order = |(faces, order): (Vec<u32>, FaceOrder)| {
+                    let places = order.new_to_old().iter();
+                    places.map(|&place| faces[place as usize]).collect()
+                };
+                ordered.map(in_order).collect()
+            });
         }
-        if clusters.len() <= MOST_TO_ORDER {
-            let tour = tour::order(&masks_of(&clusters), &directions);
-            clusters = joined(clusters, &tour, price);
-        }
+        let clusters = in_tour(clusters, &directions, card.unwrap_or(price));
 
         // The faces of each in order.
         let members = clusters.into_iter().map(|cluster| cluster.faces);
-        let members: Vec<Vec<u32>> = members
-            .chain(others)
-            .filter(|faces| !faces.is_empty())
-            .collect();
+        let mut ordered: Vec<(Vec<u32>, FaceOrder)> = match card {
+            Some(_) => members
+                .map(|faces| {
+                    let order = FaceOrder::identity(faces.len());
+                    (faces, order)
+                })
+                .collect(),
+            None => inner_order::each(mesh, members.collect(), &self.optimizer),
+        };
+        ordered.extend(inner_order::each(mesh, others.into(), &self.optimizer));
+        ordered.retain(|(faces, _)| !faces.is_empty());
         let mut starts = vec![0];
-        for members in &members {
-            starts.push(starts[starts.len() - 1] + index32(members.len()));
+        for (faces, _) in &ordered {
+            starts.push(starts[starts.len() - 1] + index32(faces.len()));
         }
-        let order = inner_order::of_groups(mesh, members, &self.optimizer);
+        let order = inner_order::joined(ordered);
         let ordered = mesh.with_face_order(&order);
         let error = f64::from(self.position_error.max(0.0));
         let table = CullingTable::within(&ordered, &starts, error, eyes);
         ClusteredFaces { order, table }
+    }
+
+    /// What a cluster costs.
+    fn price(&self) -> Price {
+        // NaN costs nothing too.
+        let cost = |cost: f32| if cost > 0.0 { cost.min(MOST_COST) } else { 0.0 };
+        Price {
+            vertex: 1.0,
+            face: cost(self.face_cost),
+            draw: cost(self.draw_cost),
+        }
+    }
+
+    /// What batches of an NVIDIA card cost, if faces are ordered for one: a batch is as dear with few vertices, so faces weigh more.
+    fn price_for_card(&self) -> Option<Price> {
+        let is_for_card = self.optimizer.target == Target::Cache(CacheModel::Nvidia);
+        let Price { vertex, face, draw } = self.price();
+        is_for_card.then_some(Price {
+            vertex: vertex * (1.0 - FOR_CARD),
+            face: face + FOR_CARD,
+            draw,
+        })
     }
 }

@@ -1,34 +1,31 @@
 //! Compact parts of a mesh, merged side by side.
 
-use super::face_cluster::FaceCluster;
-use super::masks::{self, Mask};
+use super::face_cluster::{FaceCluster, gathered};
+use super::masks::Mask;
 use super::merge::{Merging, Price};
 use super::moves;
+use super::seen::Seen;
 use crate::faces::Faces;
 use crate::first_use::FirstUse;
 use crate::geometry::double::{add, widened};
 use crate::index::index32;
-use crate::mesh::Mesh;
 use crate::parallel;
 
 /// How many faces a part has, at most.
 const PART: usize = 1 << 15;
 
-/// Some faces in clusters; each mask is that of a face.
+/// Faces in clusters; with the price of a `card`, most of them of whole batches.
 ///
 /// First those of each part that touch no other part are merged, then all that is left: the result depends on the parts, and
 /// not on the number of threads.
 pub(super) fn clusters<const WORDS: usize>(
-    mesh: &Mesh,
-    some: &[u32],
-    masks: &[Mask<WORDS>],
+    seen: &Seen<'_, WORDS>,
     price: Price,
+    card: Option<Price>,
 ) -> Vec<FaceCluster<WORDS>> {
     // From here on a face is its place among those.
-    let faces: Vec<[u32; 3]> = some
-        .iter()
-        .map(|&face| mesh.faces()[face as usize])
-        .collect();
+    let (mesh, some, masks) = (seen.mesh, seen.faces, seen.masks);
+    let faces = seen.corners();
     let faces = Faces::of_checked(&faces, mesh.vertex_count());
     let parts = parts(faces.as_slice(), mesh.positions());
     let mut first_of: Vec<u32> = (0..index32(faces.len())).collect();
@@ -57,34 +54,11 @@ pub(super) fn clusters<const WORDS: usize>(
     let mut first_of = Merging::new(faces, masks, first_of, price, |_| false).run();
     moves::improve(faces, masks, &mut first_of, price);
 
-    // Their members, by first face.
-    let mut number = vec![u32::MAX; faces.len()];
-    let mut clusters: Vec<FaceCluster<WORDS>> = Vec::new();
-    for ((&face, &first), mask) in some.iter().zip(&first_of).zip(masks) {
-        let number = &mut number[first as usize];
-        if *number == u32::MAX {
-            *number = index32(clusters.len());
-            clusters.push(FaceCluster {
-                faces: Vec::new(),
-                mask: [0; WORDS],
-                vertices: 0,
-            });
-        }
-        let cluster = &mut clusters[*number as usize];
-        cluster.faces.push(face);
-        cluster.mask = masks::union(&cluster.mask, mask);
+    if let Some(price) = card {
+        moves::fill_batches(faces, masks, &mut first_of, price);
     }
-    let mut last_user = vec![u32::MAX; mesh.vertex_count()];
-    for (number, cluster) in (0..).zip(&mut clusters) {
-        for &face in &cluster.faces {
-            for vertex in mesh.faces()[face as usize] {
-                let last = &mut last_user[vertex as usize];
-                cluster.vertices += usize::from(*last != number);
-                *last = number;
-            }
-        }
-    }
-    clusters
+    let runs = some.iter().map(std::slice::from_ref);
+    gathered(seen, runs.zip(first_of))
 }
 
 /// Faces, by where they are, cut in halves across the longest side until each part is small.

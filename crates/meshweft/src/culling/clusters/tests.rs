@@ -2,11 +2,13 @@
 
 use super::masks::{self, Mask};
 use super::merge::{Merging, Price};
-use super::{SampledEyes, ViewClusters, moves};
+use super::{SampledEyes, Seen, ViewClusters, batches, face_cluster, moves};
+use crate::cache::{CacheModel, nvidia};
 use crate::culling::{Eye, Ranges};
 use crate::faces::Faces;
-use crate::index::index32;
+use crate::index::{block_of, index32};
 use crate::mesh::Mesh;
+use crate::order::Optimizer;
 use crate::random::SplitMix64;
 
 /// A sheet of faces in rows, some of them left out, waved.
@@ -41,6 +43,7 @@ fn no_two_clusters_are_left_that_save_something_as_one() {
             .map(|[bits]| [bits & [u64::MAX, 0xffff, 0xff][random.below(3)]])
             .collect();
         let price = Price {
+            vertex: 1.0,
             face: 0.5,
             draw: [0.0, 2.0][random.below(2)],
         };
@@ -93,6 +96,7 @@ fn moves_cost_less_and_know_what_they_cost() {
         };
         let masks: Vec<Mask<1>> = (0..face_count).map(|_| any(&mut random)).collect();
         let price = Price {
+            vertex: 1.0,
             face: 0.5,
             draw: 2.0,
         };
@@ -188,17 +192,19 @@ fn each_face_is_in_one_cluster_whatever_the_mesh() {
     ];
     for (positions, faces) in odd {
         let mesh = Mesh::new(positions.to_vec(), faces.to_vec()).unwrap();
-        let clustered = ViewClusters::default().order(&mesh);
-        assert_eq!(clustered.order().len(), faces.len());
-        assert_eq!(
-            *clustered.table().starts().last().unwrap() as usize,
-            faces.len()
-        );
-        let mut ranges = Ranges::default();
-        clustered
-            .table()
-            .visible_ranges(Eye::at([3.0, 2.0, 5.0]), &mut ranges);
-        assert!(ranges.face_count() <= faces.len());
+        for clusters in [ViewClusters::default(), for_card()] {
+            let clustered = clusters.order(&mesh);
+            assert_eq!(clustered.order().len(), faces.len());
+            assert_eq!(
+                *clustered.table().starts().last().unwrap() as usize,
+                faces.len()
+            );
+            let mut ranges = Ranges::default();
+            clustered
+                .table()
+                .visible_ranges(Eye::at([3.0, 2.0, 5.0]), &mut ranges);
+            assert!(ranges.face_count() <= faces.len());
+        }
     }
 }
 
@@ -247,4 +253,84 @@ fn cameras_of_ones_own_are_what_is_made_for() {
         ours < all_around,
         "{ours} clusters, {all_around} for all around"
     );
+}
+
+fn for_card() -> ViewClusters {
+    ViewClusters {
+        optimizer: Optimizer::for_cache(CacheModel::Nvidia),
+        ..ViewClusters::default()
+    }
+}
+
+/// Each cluster drawn by itself, they take about the warps of all in one draw; other clusters take more.
+#[test]
+fn clusters_for_a_card_are_whole_batches() {
+    let mut random = SplitMix64(8);
+    let (mut alone, mut at_once, mut floor) = ([0, 0], [0, 0], 0);
+    for side in [20, 40, 60] {
+        let mesh = sheet(side, &mut random);
+        floor += mesh.face_count().div_ceil(32) as u64;
+        for (i, clusters) in [for_card(), ViewClusters::default()].iter().enumerate() {
+            let clustered = clusters.order(&mesh);
+            let faces = clustered.order().apply(mesh.faces());
+            at_once[i] += nvidia::counts(&faces).warps;
+            let ends = clustered.table().starts().windows(2);
+            alone[i] += ends
+                .map(|ends| nvidia::counts(&faces[ends[0] as usize..ends[1] as usize]).warps)
+                .sum::<u64>();
+        }
+    }
+    assert!(alone[0] * 100 <= at_once[0] * 102, "{alone:?}, {at_once:?}");
+    assert!(at_once[0] * 100 <= floor * 110, "{at_once:?}, {floor}");
+    assert!(alone[1] * 100 > at_once[1] * 104, "{alone:?}, {at_once:?}");
+}
+
+#[test]
+fn batches_of_a_card_keep_to_blocks_of_vertices() {
+    // The upper half of a sheet stands in the second block.
+    let flat = sheet(70, &mut SplitMix64(9));
+    let half = index32(flat.vertex_count() / 2);
+    let moved = |vertex: u32| match vertex < half {
+        true => vertex,
+        false => (1 << 16) + vertex - half,
+    };
+    let mut positions = vec![[0.0; 3]; (1 << 16) + flat.vertex_count()];
+    for (vertex, &position) in (0..).zip(flat.positions()) {
+        positions[moved(vertex) as usize] = position;
+    }
+    let faces = flat.faces().iter().map(|face| face.map(moved));
+    let mesh = Mesh::new(positions, faces.collect::<Vec<_>>()).unwrap();
+
+    // All faces are one cluster, column by column: each column has faces of both blocks.
+    let mut random = SplitMix64(10);
+    let masks: Vec<Mask<1>> = (0..mesh.face_count()).map(|_| [random.next()]).collect();
+    let all: Vec<u32> = (0..index32(mesh.face_count())).collect();
+    let seen = Seen {
+        mesh: &mesh,
+        faces: &all,
+        masks: &masks,
+        directions: &[[1.0, 0.0, 0.0]; 64],
+    };
+    let column = |face: u32| mesh.positions()[mesh.faces()[face as usize][0] as usize][0];
+    let mut by_column = all.clone();
+    by_column.sort_by(|&a, &b| column(a).total_cmp(&column(b)));
+    let one = face_cluster::gathered(&seen, [(&*by_column, 0)].into_iter());
+    let made = batches::batches(&seen, one, |runs| runs);
+
+    let mut drawn: Vec<u32> = made.concat();
+    drawn.sort_unstable();
+    assert_eq!(drawn, all);
+    let mut blocks = [0, 0, 0];
+    for batch in &made {
+        let block = |&face: &u32| {
+            let [a, b, c] = mesh.faces()[face as usize].map(block_of);
+            if a == b && b == c { a } else { 2 }
+        };
+        assert!(batch.iter().all(|face| block(face) == block(&batch[0])));
+        blocks[block(&batch[0]) as usize] += 1;
+        let corners = batch.iter().flat_map(|&face| mesh.faces()[face as usize]);
+        let vertices = corners.collect::<std::collections::BTreeSet<u32>>();
+        assert!(batch.len() <= 32 && vertices.len() <= 32);
+    }
+    assert!(blocks.iter().all(|&count| count > 1), "{blocks:?}");
 }

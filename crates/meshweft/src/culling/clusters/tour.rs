@@ -16,6 +16,17 @@ fn apart<const WORDS: usize>(a: &Mask<WORDS>, b: &Mask<WORDS>) -> u32 {
     masks::count::<WORDS>(&std::array::from_fn(|i| a[i] ^ b[i]))
 }
 
+/// More clusters than this stay in the order of a curve.
+pub(super) const MOST_TO_ORDER: usize = 20_000;
+
+/// An order of clusters in which few differ from the next, however many there are.
+pub(super) fn path<const WORDS: usize>(masks: &[Mask<WORDS>], directions: &[[f64; 3]]) -> Vec<u32> {
+    match masks.len() <= MOST_TO_ORDER {
+        true => order(masks, directions),
+        false => along_a_curve(masks, directions),
+    }
+}
+
 /// An order of clusters in which the runs that an eye sees are few: a path through their masks on which few bits change.
 ///
 /// Pairs that differ least are joined first, then the ends of what they make; then parts of the path are turned around and
@@ -23,10 +34,7 @@ fn apart<const WORDS: usize>(a: &Mask<WORDS>, b: &Mask<WORDS>) -> u32 {
 ///
 /// # Complexity
 /// Time about O(clusters · √clusters); space O(clusters).
-pub(super) fn order<const WORDS: usize>(
-    masks: &[Mask<WORDS>],
-    directions: &[[f64; 3]],
-) -> Vec<u32> {
+fn order<const WORDS: usize>(masks: &[Mask<WORDS>], directions: &[[f64; 3]]) -> Vec<u32> {
     if masks.len() < 3 {
         return (0..index32(masks.len())).collect();
     }
@@ -81,10 +89,7 @@ fn along_curves<const WORDS: usize>(
 }
 
 /// The clusters along a curve through the sums of the directions that they are seen from.
-pub(super) fn along_a_curve<const WORDS: usize>(
-    masks: &[Mask<WORDS>],
-    directions: &[[f64; 3]],
-) -> Vec<u32> {
+fn along_a_curve<const WORDS: usize>(masks: &[Mask<WORDS>], directions: &[[f64; 3]]) -> Vec<u32> {
     let sums: Vec<[f64; 3]> = masks.iter().map(|mask| sum(mask, directions)).collect();
     along_curve(&sums, 0.0)
 }
