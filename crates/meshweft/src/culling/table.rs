@@ -30,7 +30,7 @@ pub struct CullingTable {
 /// The reach of a table is below it, so that nothing that is computed of it is infinite.
 const MOST_REACH: f32 = f32::MAX / 32.0;
 
-/// So many clusters are looked at together.
+/// How many clusters are looked at together.
 const LANES: usize = 8;
 
 /// Of each plane each number, of some clusters side by side.

@@ -10,7 +10,7 @@ use crate::parallel;
 /// A bit for each sampled eye.
 pub(super) type Mask<const WORDS: usize> = [u64; WORDS];
 
-/// So many faces are one piece of work.
+/// How many faces are one piece of work.
 const PIECE: usize = 1 << 14;
 
 /// How many eyes see something of a mask.

@@ -7,7 +7,7 @@ use crate::faces::Faces;
 use crate::index::index32;
 use crate::topology::{Adjacency, distinct};
 
-/// So often all faces are looked at, at most; after three times hardly any is moved.
+/// How often all faces are looked at, at most; after three times hardly any is moved.
 const ROUNDS: u32 = 3;
 
 /// How many neighbouring clusters a face chooses from, at most.

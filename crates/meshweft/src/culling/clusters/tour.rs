@@ -4,7 +4,7 @@ use super::masks::{self, Mask};
 use crate::geometry::double::add;
 use crate::index::index32;
 
-/// So many clusters that are seen from nearly the same eyes are known of each.
+/// How many clusters are known of each that are seen from nearly the same eyes.
 const NEAR: usize = 10;
 
 /// Up to this many clusters, each is compared with each.

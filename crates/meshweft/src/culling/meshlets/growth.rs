@@ -9,7 +9,7 @@ use crate::index::index32;
 use crate::mesh::Mesh;
 use crate::topology::{Adjacency, distinct};
 
-/// So many faces beside finished meshlets are kept as starts of the next ones.
+/// How many faces beside finished meshlets are kept as starts of the next ones.
 const MOST_STARTS: usize = 256;
 
 /// What counts beside a distance of the radius of a meshlet, which is 1, as a finished vertex is: normals across the

@@ -5,7 +5,7 @@ use crate::error::MeshError;
 use crate::index::index32;
 use crate::permutation::Permutation;
 
-/// So many faces are tried as the first one.
+/// How many faces are tried as the first one.
 const STARTS: usize = 4;
 /// Local numbers of vertices are 8 bits.
 const MOST_VERTICES: usize = 256;
