@@ -1,10 +1,8 @@
 //! Which of the sampled eyes may see a face, as bits.
 
 use crate::culling::eye::Eye;
-use crate::culling::facing::normal;
 use crate::culling::planes::rounded;
-use crate::geometry::double::{dot, sub, widened};
-use crate::mesh::Mesh;
+use crate::geometry::linear_program::HalfSpace;
 use crate::parallel;
 
 /// A bit for each sampled eye.
@@ -32,13 +30,12 @@ pub(super) fn union<const WORDS: usize>(a: &Mask<WORDS>, b: &Mask<WORDS>) -> Mas
     std::array::from_fn(|i| a[i] | b[i])
 }
 
-/// The mask of each of some faces.
+/// The mask of each of some faces, by their planes around `origin`.
 ///
 /// # Complexity
 /// Time O(faces · eyes).
-pub(super) fn of_faces<const WORDS: usize>(
-    mesh: &Mesh,
-    some: &[u32],
+pub(super) fn of_planes<const WORDS: usize>(
+    planes: &[HalfSpace],
     origin: [f64; 3],
     eyes: &[Eye],
 ) -> Vec<Mask<WORDS>> {
@@ -53,14 +50,9 @@ pub(super) fn of_faces<const WORDS: usize>(
         }
         lanes
     });
-    let positions = mesh.positions();
-    let mask_of = |&face: &u32| {
-        let corners = mesh.faces()[face as usize].map(|vertex| widened(positions[vertex as usize]));
-        let Some(normal) = normal(corners) else {
-            return [0; WORDS];
-        };
-        let [a, b, c] = normal.map(rounded);
-        let h = rounded(dot(normal, sub(corners[0], origin)));
+    let mask_of = |plane: &HalfSpace| {
+        let [a, b, c] = plane.normal.map(rounded);
+        let h = rounded(plane.offset);
         std::array::from_fn(|word| {
             let mut bits = 0_u64;
             let (xs, ys, zs, ws) = (&xs[word], &ys[word], &zs[word], &ws[word]);
@@ -71,8 +63,8 @@ pub(super) fn of_faces<const WORDS: usize>(
             bits
         })
     };
-    let pieces = some.chunks(PIECE).collect();
-    parallel::map(pieces, |piece: &[u32]| {
+    let pieces = planes.chunks(PIECE).collect();
+    parallel::map(pieces, |piece: &[HalfSpace]| {
         piece.iter().map(mask_of).collect::<Vec<_>>()
     })
     .concat()

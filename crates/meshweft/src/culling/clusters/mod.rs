@@ -167,18 +167,22 @@ impl ViewClusters {
     ) -> ClusteredFaces {
         // Faces that are seen from one side, and the others.
         let mut faces = Vec::with_capacity(mesh.face_count());
+        let mut planes = Vec::with_capacity(mesh.face_count());
         let mut others = [Vec::new(), Vec::new()];
         for (number, face) in (0..).zip(mesh.faces()) {
             let corners = face.map(|vertex| widened(mesh.positions()[vertex as usize]));
             match Facing::of(corners, ball.center) {
-                Facing::Plane(_) => faces.push(number),
+                Facing::Plane(plane) => {
+                    faces.push(number);
+                    planes.push(plane);
+                }
                 Facing::Unknown => others[0].push(number),
                 Facing::Never => others[1].push(number),
             }
         }
 
         // Clusters, in the order of a tour.
-        let masks = masks::of_faces::<WORDS>(mesh, &faces, ball.center, eyes);
+        let masks = masks::of_planes::<WORDS>(&planes, ball.center, eyes);
         let directions: Vec<[f64; 3]> = eyes.iter().map(|eye| direction(*eye, ball)).collect();
         let seen = Seen {
             mesh,
