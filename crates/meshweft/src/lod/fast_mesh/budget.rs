@@ -27,7 +27,7 @@ impl Default for FrameBudget {
 }
 
 /// What the next step of an update is.
-enum Step {
+enum FrontStep {
     Split(u32),
     Collapse(u32),
 }
@@ -68,8 +68,8 @@ impl Front {
             };
             left -= 1;
             match step {
-                Step::Split(point) => self.split(point),
-                Step::Collapse(point) => self.collapse(point),
+                FrontStep::Split(point) => self.split(point),
+                FrontStep::Collapse(point) => self.collapse(point),
             }
             self.put_moved(view, &mut queues);
         }
@@ -86,7 +86,7 @@ impl Front {
         queues: &mut BudgetQueues,
         hysteresis: f64,
         most_vertices: usize,
-    ) -> Option<Step> {
+    ) -> Option<FrontStep> {
         // Points that were split with others, or left the list, are passed.
         // Points that were split with others, or that others need by now, are passed.
         while let Some(top) = queues.splits.peek()
@@ -102,18 +102,22 @@ impl Front {
         let least = queues.collapses.peek().map(|it| it.0);
 
         if self.vertex_count() > most_vertices {
-            return least.map(|it| Step::Collapse(it.point));
+            return least.map(|it| FrontStep::Collapse(it.point));
         }
         let Some(&most) = queues.splits.peek() else {
             let is_hidden = |it: &Queued| !it.urgency.is_above(hysteresis);
-            return least.filter(is_hidden).map(|it| Step::Collapse(it.point));
+            return least
+                .filter(is_hidden)
+                .map(|it| FrontStep::Collapse(it.point));
         };
         let room = most_vertices - self.vertex_count();
         if self.needs_at_most(most.point, room) {
-            return Some(Step::Split(most.point));
+            return Some(FrontStep::Split(most.point));
         }
         let makes_room = |it: &Queued| it.urgency.is_below(most.urgency, hysteresis);
-        least.filter(makes_room).map(|it| Step::Collapse(it.point))
+        least
+            .filter(makes_room)
+            .map(|it| FrontStep::Collapse(it.point))
     }
 
     /// Whether a split adds at most this number of vertices, with those of the points that it needs.

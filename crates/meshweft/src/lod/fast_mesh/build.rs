@@ -12,7 +12,7 @@ use crate::progressive::{AttributeWeights, Collapses};
 ///
 /// ```
 /// use meshweft::Mesh;
-/// use meshweft::lod::fast_mesh::{FastMesh, Front};
+/// use meshweft::lod::fast_mesh::{Camera, FastMesh, Front};
 /// // A flat square of 8 by 8 cells.
 /// let positions: Vec<[f32; 3]> = (0..81).map(|i| [(i % 9) as f32, (i / 9) as f32, 0.0]).collect();
 /// let cell = |i: u32| [[i, i + 1, i + 9], [i + 9, i + 1, i + 10]];
@@ -20,10 +20,18 @@ use crate::progressive::{AttributeWeights, Collapses};
 /// let mesh = Mesh::new(positions, faces)?;
 ///
 /// let mut front = Front::new(FastMesh::default().build(&mesh, &[])?);
-/// assert_eq!(front.face_count(), 2); // The coarsest mesh is still the whole square.
+/// let camera = Camera {
+///     eye: [4.0, 4.0, 30.0],
+///     target: [4.0, 4.0, 0.0],
+///     up: [0.0, 1.0, 0.0],
+///     field_of_view: 45.0,
+///     size: [800, 600],
+/// };
+/// front.update(&camera.view(1.0)?, 1.0);
+/// assert!(front.face_count() < 20); // Still the whole square.
 /// front.refine_fully();
 /// assert_eq!(front.face_count(), 128);
-/// # Ok::<(), meshweft::MeshError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FastMesh {
