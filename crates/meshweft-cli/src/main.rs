@@ -9,6 +9,7 @@ mod cull;
 mod decompress;
 mod demo;
 mod inspect;
+mod lod;
 mod optimize;
 mod paper;
 mod plot;
@@ -27,6 +28,7 @@ use cull::Cull;
 use decompress::Decompress;
 use demo::Demo;
 use inspect::Inspect;
+use lod::Lod;
 use optimize::Optimize;
 use paper::Paper;
 use run::output::is_broken_pipe;
@@ -85,6 +87,8 @@ enum Verb {
     Decompress(Decompress),
     /// Say which faces need not be drawn, from wherever a mesh is seen
     Cull(Cull),
+    /// Draw what can be seen from where the eye is, and no more
+    Lod(Lod),
     /// Count cache misses of files as they are
     ///
     ///   meshweft inspect scene.glb --cache fifo:12 --cache nvidia --json
@@ -115,6 +119,7 @@ fn main() -> ExitCode {
         Verb::Compress(arguments) => compress::run(arguments),
         Verb::Decompress(arguments) => decompress::run(arguments),
         Verb::Cull(arguments) => cull::run(arguments),
+        Verb::Lod(arguments) => lod::run(arguments),
         Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Compare(arguments) => compare::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),

@@ -123,6 +123,29 @@ impl Axis {
         }
     }
 
+    /// Numbers from 0 to below a count.
+    pub(crate) fn of_numbers(name: &'static str, count: usize) -> Self {
+        let high = count.max(2) as f64 - 1.0;
+        // Steps of 1, 2 or 5 in their first digit, ten at most.
+        let decade = 10_f64.powf((high / 10.0).log10().floor().max(0.0));
+        let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade);
+        let step = steps.into_iter().find(|step| high / step <= 10.0);
+        let step = step.unwrap_or(10.0 * decade);
+        let mut ticks = Vec::new();
+        let mut value = 0.0;
+        while value <= high {
+            ticks.push((value, format!("{value}")));
+            value += step;
+        }
+        Self {
+            name,
+            low: 0.0,
+            high,
+            is_log: false,
+            ticks,
+        }
+    }
+
     /// Whole decades around one coordinate of these curves.
     pub(crate) fn of_decades(name: &'static str, curves: &[Curve], coordinate: usize) -> Self {
         let found = || values(curves, coordinate).filter(|value| *value > 0.0);
@@ -283,6 +306,20 @@ mod tests {
         let both = stacked(&svg, &svg);
         assert_eq!(both.matches("<svg").count(), 3);
         assert_eq!(both.matches("</svg>").count(), 3);
+    }
+
+    #[test]
+    fn numbers_have_few_ticks() {
+        let last = |count| {
+            let axis = Axis::of_numbers("frame", count);
+            let last = axis.ticks.last().map(|(value, _)| *value);
+            (axis.ticks.len(), last)
+        };
+        assert_eq!(last(1), (2, Some(1.0)));
+        assert_eq!(last(11), (11, Some(10.0)));
+        assert_eq!(last(60), (6, Some(50.0)));
+        assert_eq!(last(1001), (11, Some(1000.0)));
+        assert_eq!(last(1_000_000), (10, Some(900_000.0)));
     }
 
     #[test]

@@ -42,7 +42,8 @@ pub(crate) const PLOT: SideFile = SideFile {
     other: "another name",
     is_own: |start| {
         let text = String::from_utf8_lossy(start);
-        text.starts_with("<svg") && text.contains("Misses per face")
+        text.starts_with("<svg")
+            && (text.contains("Misses per face") || text.contains(">Frames of a walk<"))
     },
 };
 

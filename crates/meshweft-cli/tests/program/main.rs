@@ -8,6 +8,7 @@ mod data;
 mod demo;
 mod disk;
 mod kept;
+mod lod;
 mod many;
 mod nothing_lost;
 mod papers;

@@ -4,7 +4,7 @@
 //! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
 //! document and keeps every other byte, `simplify` takes faces away from it, `inspect` counts it as it is, and
 //! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads, `cull_build` adds tables that say which faces need not be
-//! drawn, and `cull_stats` counts what these leave out; their reports are values that know their JSON.
+//! drawn, and `cull_stats` counts what these leave out, `lod_walk` walks around a mesh whose detail follows the eye; their reports are values that know their JSON.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
 //! along a history such as [`collapse_history`] makes. [`StripedMesh`] and [`FacePlanes`] count what of a mesh is drawn, and
 //! what could be left out, from where it is seen.
@@ -34,6 +34,8 @@ mod indices;
 mod inspect;
 #[cfg(feature = "files")]
 mod json;
+#[cfg(feature = "files")]
+mod lod;
 mod methods;
 #[cfg(feature = "files")]
 mod optimize;
@@ -72,6 +74,12 @@ pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_
 pub use inspect::{InspectReport, inspect};
 #[cfg(feature = "files")]
 pub use json::SCHEMA;
+#[cfg(feature = "files")]
+pub use lod::{
+    CameraPath, Eviction, LodWalkError, LodWalkOptions, LodWalkReport, MOST_FRAMES, WalkFrame,
+    WalkOptimum, WalkOptionError, WalkQuantity, WalkSummary, WalkedMesh, cameras_from_json,
+    lod_walk,
+};
 pub use methods::{InBatches, Method, grid_orders, linear_arrangement_cost};
 #[cfg(feature = "files")]
 pub use optimize::{CountChange, OptimizeError, OptimizeReport, OptimizedMesh, optimize};

@@ -1,0 +1,38 @@
+//! `lod`: detail that follows the eye.
+
+mod walk;
+
+use anyhow::Result;
+use clap::{Args, Subcommand};
+
+use walk::Walk;
+
+#[derive(Debug, Args)]
+pub(crate) struct Lod {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Move the eye around a mesh, and count what each frame sends to a graphics card
+    ///
+    /// The mesh is refined where its error could be seen and coarsened elsewhere, frame by frame. Its active vertices are
+    /// kept in the slots of a vertex buffer, its faces in an index buffer that is patched. All meshes of the file are one here,
+    /// with their positions as the file stores them. Nothing is written.
+    ///
+    ///   meshweft lod walk scan.ply
+    ///   meshweft lod walk scan.ply --path fly --tolerance .5 --slots 32768 --policy lru --optimum
+    ///   meshweft lod walk scan.ply --path cameras.json --json --plot frames.svg
+    ///
+    /// A file of cameras is {"fov":45,"frames":[{"eye":[0,0,9],"target":[0,0,0],"up":[0,1,0]}]}, one camera a frame; fov is in
+    /// degrees from the bottom of the picture to its top.
+    #[command(verbatim_doc_comment)]
+    Walk(Walk),
+}
+
+pub(crate) fn run(arguments: &Lod) -> Result<()> {
+    match &arguments.verb {
+        Verb::Walk(arguments) => walk::run(arguments),
+    }
+}

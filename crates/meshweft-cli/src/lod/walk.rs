@@ -1,0 +1,313 @@
+//! `lod walk`: what each frame of a path costs.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
+use clap::{Args, ValueEnum};
+use meshweft::files::{Document, ReadOptions};
+use meshweft::operations::{
+    self, CameraPath, Eviction, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
+};
+
+use crate::columns::columns;
+use crate::plot::{self, Axis, Curve};
+use crate::run::arguments::Size;
+use crate::run::output::{self, Report};
+use crate::run::side_file::PLOT;
+use crate::run::watch::Watch;
+use crate::usage::Usage;
+
+#[derive(Debug, Args)]
+pub(super) struct Walk {
+    /// A .gltf, .glb, .vrm, .obj, .ply, .off, .stl or .wrl file, optionally followed by .gz
+    #[arg(value_name = "FILE")]
+    input: PathBuf,
+    /// circle: once around; rotate: small turns to and fro; zoom: in and out; fly: close, turning; or a file of cameras
+    #[arg(long, value_name = "PATH", default_value = "circle")]
+    path: String,
+    /// How many frames [default: 1000, or all of a file of cameras]
+    #[arg(long, value_name = "N")]
+    frames: Option<usize>,
+    /// How many slots the vertex buffer has
+    #[arg(long, value_name = "N", default_value_t = LodWalkOptions::default().slots)]
+    slots: usize,
+    /// Which slot the next vertex takes
+    #[arg(long, value_name = "POLICY", default_value = "finest")]
+    policy: Policy,
+    /// How many pixels the surface may be off
+    #[arg(long, value_name = "PIXELS", default_value_t = LodWalkOptions::default().tolerance)]
+    tolerance: f64,
+    /// A vertex stays until its error is this part of the tolerance: 1 for never longer than needed
+    #[arg(long, value_name = "PART", default_value_t = LodWalkOptions::default().hysteresis)]
+    hysteresis: f64,
+    /// The picture, in pixels
+    #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = picture_size)]
+    size: [u32; 2],
+    /// How many bytes a vertex has
+    #[arg(long, value_name = "BYTES", default_value_t = LodWalkOptions::default().vertex_size)]
+    vertex_size: usize,
+    /// Draw a frame of more vertices than slots in passes; without it all its vertices are streamed
+    #[arg(long)]
+    passes: bool,
+    /// Find the fewest inserts that any policy needs on this path
+    #[arg(long)]
+    optimum: bool,
+    /// Plot vertices, faces, inserts and times over the frames
+    #[arg(long, value_name = "OUT.svg")]
+    plot: Option<PathBuf>,
+    /// Let --plot replace a file that another program wrote
+    #[arg(long, requires = "plot")]
+    force: bool,
+    #[command(flatten)]
+    limits: Size,
+    #[command(flatten)]
+    report: Report,
+}
+
+/// A policy as it is given.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Policy {
+    /// Of all open slots, the one with the finest detail
+    Finest,
+    /// The slot that was used least recently
+    Lru,
+    /// The finest detail of the oldest slots, a tenth of all that are open for 30 frames
+    Queue,
+    /// The first slot that was used neither in this frame nor in the last
+    First,
+    /// No slots: all active vertices are sent in every frame
+    None,
+}
+
+impl Policy {
+    fn eviction(self) -> Eviction {
+        match self {
+            Self::Finest => Eviction::FinestFirst,
+            Self::Lru => Eviction::OldestFirst,
+            Self::Queue => Eviction::queued_by_error(10, 30),
+            Self::First => Eviction::FirstAvailable,
+            Self::None => Eviction::Nothing,
+        }
+    }
+}
+
+/// A width and a height, such as `800x600`.
+fn picture_size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').map(|(width, height)| [width, height]);
+    let sides = sides.and_then(|[width, height]| Some([width.parse().ok()?, height.parse().ok()?]));
+    sides.ok_or_else(|| "give width and height in pixels, such as 800x600".to_owned())
+}
+
+/// Prints what a walk costs.
+pub(super) fn run(arguments: &Walk) -> Result<()> {
+    let mut options = LodWalkOptions::default();
+    options.frames = arguments.frames;
+    options.slots = arguments.slots;
+    options.policy = arguments.policy.eviction();
+    options.tolerance = arguments.tolerance;
+    options.hysteresis = arguments.hysteresis;
+    options.size = arguments.size;
+    options.vertex_size = arguments.vertex_size;
+    options.passes = arguments.passes;
+    options.optimum = arguments.optimum;
+
+    // All that can be wrong without the mesh.
+    options
+        .check()
+        .map_err(|error| Usage(format!("--{error}")))?;
+    options.path = path(arguments)?;
+    if let Some(path) = &arguments.plot {
+        PLOT.check_no_mesh(path, [arguments.input.as_path()])?;
+        PLOT.check(path, arguments.force)?;
+    }
+
+    let mut reading = ReadOptions::default();
+    reading.limits = arguments.limits.limits();
+    let document = Document::open(&arguments.input, reading)?;
+    let watch = Watch::new(None, arguments.report.shows_progress());
+    let start = Instant::now();
+    let clock = || start.elapsed().as_secs_f64();
+    let report = operations::lod_walk(&document, &options, &clock, &watch)?;
+    watch.finish();
+
+    arguments.report.json_line(&report.to_json())?;
+    arguments.report.text(&text(&report))?;
+    let notes = output::note_lines(&report.file, &report.notes);
+    arguments.report.notes(&notes)?;
+    if let Some(path) = &arguments.plot {
+        fs::write(path, svg(&report)).with_context(|| path.display().to_string())?;
+    }
+    Ok(())
+}
+
+/// A path by its name, or the cameras of a file.
+fn path(arguments: &Walk) -> Result<CameraPath> {
+    let name = &arguments.path;
+    let shape = CameraPath::SHAPES.into_iter().find(|it| it.name() == name);
+    if let Some(shape) = shape {
+        return Ok(shape);
+    }
+    let file = Path::new(name);
+    let is_named_json = file
+        .extension()
+        .is_some_and(|it| it.eq_ignore_ascii_case("json"));
+    if !is_named_json && !file.exists() {
+        let names = CameraPath::SHAPES.map(|it| it.name()).join(", ");
+        let told = format!("--path {name}: give {names}, or a file of cameras (.json)");
+        return Err(Usage(told).into());
+    }
+
+    let limit = arguments.limits.limits().file_bytes;
+    let mut bytes = Vec::new();
+    let read = fs::File::open(file);
+    let read = read.and_then(|opened| opened.take(limit.saturating_add(1)).read_to_end(&mut bytes));
+    read.with_context(|| file.display().to_string())?;
+    if bytes.len() as u64 > limit {
+        bail!(
+            "{}: more bytes than the limit of {limit}. Split the file, or allow more with --max-bytes",
+            file.display()
+        );
+    }
+    let cameras = operations::cameras_from_json(file, &bytes, arguments.size)?;
+    Ok(CameraPath::Given(cameras.into()))
+}
+
+/// What is shown of a quantity, and its digits after the point.
+const ROWS: [(WalkQuantity, &str, usize); 12] = [
+    (WalkQuantity::Vertices, "active vertices", 0),
+    (WalkQuantity::Faces, "faces", 0),
+    (WalkQuantity::Added, "vertices added", 0),
+    (WalkQuantity::Removed, "vertices removed", 0),
+    (WalkQuantity::Inserts, "vertices sent", 0),
+    (WalkQuantity::VertexRanges, "in ranges", 0),
+    (WalkQuantity::VertexBytes, "vertex bytes", 0),
+    (WalkQuantity::IndexRanges, "index ranges", 0),
+    (WalkQuantity::IndexBytes, "index bytes", 0),
+    (WalkQuantity::UpdateMilliseconds, "ms, level of detail", 3),
+    (WalkQuantity::CacheMilliseconds, "ms, slots", 3),
+    (WalkQuantity::IndexMilliseconds, "ms, indices", 3),
+];
+
+/// What was walked around, a table, and a line for each thing beside it.
+fn text(report: &LodWalkReport) -> String {
+    let (options, mesh) = (&report.options, &report.mesh);
+    let [width, height] = options.size;
+    let mut text = format!(
+        "{}: {} vertices, {} faces, coarsest with {} vertices\n\
+         {}, {} frames of {width} x {height}, {} pixels; {} slots, {}\n",
+        report.file.display(),
+        mesh.vertices,
+        mesh.faces,
+        mesh.roots,
+        options.path.name(),
+        report.frames.len(),
+        options.tolerance,
+        options.slots,
+        options.policy,
+    );
+    let head = ["a frame", "first", "mean", "median", "worst", "all frames"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for (quantity, name, digits) in ROWS {
+        let it = report.summary(quantity);
+        let [count, part] = [digits, digits.max(1)];
+        rows.push(vec![
+            name.to_owned(),
+            format!("{:.count$}", it.first),
+            format!("{:.part$}", it.mean),
+            format!("{:.part$}", it.median),
+            format!("{:.count$}", it.worst),
+            format!("{:.count$}", it.total),
+        ]);
+    }
+    text += &columns(&rows);
+
+    let [streamed, in_passes] = report.overfull_frames();
+    if streamed > 0 && options.policy != Eviction::Nothing {
+        text += &format!("\nframes of more vertices than slots: {streamed}, streamed");
+    }
+    if in_passes > 0 {
+        let passes = report.summary(WalkQuantity::Passes).total;
+        text +=
+            &format!("\nframes of more vertices than slots: {in_passes}, all in {passes} passes");
+    }
+    if let Some(optimum) = report.optimum {
+        let inserts = report.summary(WalkQuantity::Inserts).total;
+        let times = |least: f64| format!("{:.3} times", inserts / least.max(1.0));
+        let distinct = optimum.distinct_vertices;
+        text += &format!(
+            "\nvertices active at some time: {distinct}; sent: {}",
+            times(distinct as f64)
+        );
+        text += &match optimum.fewest_inserts {
+            Some(fewest) => format!(
+                " that, {} the fewest possible, {fewest}",
+                times(fewest as f64)
+            ),
+            None => {
+                " that; the fewest possible is not known, as a frame has more than slots".to_owned()
+            }
+        };
+    }
+    text
+}
+
+/// Points of a curve at most.
+const PLOTTED: usize = 500;
+
+/// Counts of the frames above, times below; the first frame left out, means where there are many frames.
+fn svg(report: &LodWalkReport) -> String {
+    let later = report.frames.get(1..).unwrap_or_default();
+    let together = later.len().div_ceil(PLOTTED).max(1);
+    let curve = |quantity: WalkQuantity, name: &str| {
+        let point = |(number, frames): (usize, &[WalkFrame])| {
+            let sum: f64 = frames.iter().map(|frame| quantity.of(frame)).sum();
+            [(1 + number * together) as f64, sum / frames.len() as f64]
+        };
+        let points = later.chunks(together).enumerate().map(point);
+        Curve::new(name.to_owned(), points.collect())
+    };
+    let picture = |title: &str, unit: &'static str, quantities: &[(WalkQuantity, &str)]| {
+        let curves = quantities
+            .iter()
+            .map(|&(quantity, name)| curve(quantity, name));
+        let curves: Vec<Curve> = curves.collect();
+        let frames = report.frames.len();
+        let axes = [
+            Axis::of_numbers("frame", frames),
+            Axis::of_decades(unit, &curves, 1),
+        ];
+        plot::svg(title, &axes, &curves)
+    };
+
+    let counts = [
+        (WalkQuantity::Vertices, "active vertices"),
+        (WalkQuantity::Faces, "faces"),
+        (WalkQuantity::Inserts, "vertices sent"),
+        (WalkQuantity::PatchedFaces, "faces patched"),
+    ];
+    let times = [
+        (WalkQuantity::UpdateMilliseconds, "level of detail"),
+        (WalkQuantity::CacheMilliseconds, "slots"),
+        (WalkQuantity::IndexMilliseconds, "indices"),
+    ];
+    plot::stacked(
+        &picture("Frames of a walk", "number", &counts),
+        &picture("Times of these frames", "milliseconds", &times),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::picture_size;
+
+    #[test]
+    fn pictures_have_two_sides() {
+        assert_eq!(picture_size("800x600"), Ok([800, 600]));
+        for text in ["", "800", "800x", "x", "800x-1", "8x6x4", "99999999999x1"] {
+            assert!(picture_size(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! What a view-dependent level of detail does on a path of the eye.
+//!
+//! Read `walk` for what happens in a frame, `paths` for where the eye goes, `loading` for what a file is walked around as.
+
+mod camera_file;
+mod frame;
+mod loading;
+mod options;
+mod paths;
+mod report;
+mod walk;
+#[cfg(test)]
+mod walk_tests;
+
+pub use crate::lod::geometry_cache::Eviction;
+pub use camera_file::{MOST_FRAMES, cameras_from_json};
+pub use frame::{WalkFrame, WalkQuantity};
+pub use options::{LodWalkError, LodWalkOptions, WalkOptionError};
+pub use paths::CameraPath;
+pub use report::{LodWalkReport, WalkOptimum, WalkSummary, WalkedMesh};
+pub use walk::lod_walk;

@@ -1,0 +1,300 @@
+//! What is asked for, and why there is no walk.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use super::camera_file::MOST_FRAMES;
+use super::paths::CameraPath;
+use crate::error::MeshError;
+use crate::files::FileError;
+use crate::lod::fast_mesh::ViewError;
+use crate::lod::geometry_cache::{Eviction, GeometryCacheError};
+
+/// How a mesh is walked around.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LodWalkOptions {
+    /// Where the eye goes.
+    pub path: CameraPath,
+    /// How many frames: 1000, or all cameras that are given, if not said.
+    pub frames: Option<usize>,
+    /// Width and height of the picture, in pixels.
+    pub size: [u32; 2],
+    /// How many pixels the surface may be off.
+    pub tolerance: f64,
+    /// A vertex stays until its error is this part of the tolerance: above 0, and 1 for never longer than needed.
+    pub hysteresis: f64,
+    /// How many slots the vertex buffer has.
+    pub slots: usize,
+    /// Which slot the next vertex takes.
+    pub policy: Eviction,
+    /// Draw a frame of more vertices than slots in passes; it is streamed otherwise.
+    pub passes: bool,
+    /// How many bytes a vertex has.
+    pub vertex_size: usize,
+    /// Find the fewest inserts that any policy needs.
+    pub optimum: bool,
+}
+
+impl Default for LodWalkOptions {
+    /// As in the paper: a picture of 800 by 800, 1.5 pixels, 65,536 slots, 36 bytes a vertex. No hysteresis; the finest detail
+    /// leaves first.
+    fn default() -> Self {
+        Self {
+            path: CameraPath::default(),
+            frames: None,
+            size: [800, 800],
+            tolerance: 1.5,
+            hysteresis: 1.0,
+            slots: 65_536,
+            policy: Eviction::default(),
+            passes: false,
+            vertex_size: 36,
+            optimum: false,
+        }
+    }
+}
+
+/// Largest side of a picture, and largest size of a vertex.
+const MOST: usize = 65_535;
+
+impl LodWalkOptions {
+    /// Whether every number is in its range.
+    ///
+    /// # Errors
+    /// The first one that is not.
+    pub fn check(&self) -> Result<(), WalkOptionError> {
+        let is_count = |number: usize, least: usize, most: usize| (least..=most).contains(&number);
+        let error = |option, found: String, allowed: String| {
+            Err(WalkOptionError {
+                option,
+                found,
+                allowed,
+            })
+        };
+        if let Some(frames) = self
+            .frames
+            .filter(|&frames| !is_count(frames, 1, MOST_FRAMES))
+        {
+            return error("frames", frames.to_string(), format!("1 to {MOST_FRAMES}"));
+        }
+        if let CameraPath::Given(cameras) = &self.path
+            && !is_count(cameras.len(), 1, MOST_FRAMES)
+        {
+            let found = format!("of {} cameras", cameras.len());
+            return error("path", found, format!("1 to {MOST_FRAMES}"));
+        }
+        let [width, height] = self.size;
+        if !self
+            .size
+            .iter()
+            .all(|&side| is_count(side as usize, 1, MOST))
+        {
+            let allowed = format!("1 to {MOST} pixels for width and height, such as 800x600");
+            return error("size", format!("{width}x{height}"), allowed);
+        }
+        if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
+            let allowed = "a number of pixels above 0".to_owned();
+            return error("tolerance", self.tolerance.to_string(), allowed);
+        }
+        if !(self.hysteresis > 0.0 && self.hysteresis <= 1.0) {
+            let allowed = "a part of the tolerance, above 0 and at most 1".to_owned();
+            return error("hysteresis", self.hysteresis.to_string(), allowed);
+        }
+        let most = 1 << 30;
+        if !is_count(self.slots, 3, most) {
+            let allowed = format!("3, which a face needs, to {most}");
+            return error("slots", self.slots.to_string(), allowed);
+        }
+        if !is_count(self.vertex_size, 1, MOST) {
+            let allowed = format!("1 to {MOST} bytes");
+            return error("vertex-size", self.vertex_size.to_string(), allowed);
+        }
+        Ok(())
+    }
+}
+
+/// An option that is out of its range.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WalkOptionError {
+    /// Its name, with a dash between words.
+    pub option: &'static str,
+    /// What it is.
+    pub found: String,
+    /// What it may be.
+    pub allowed: String,
+}
+
+impl fmt::Display for WalkOptionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}: give {}", self.option, self.found, self.allowed)
+    }
+}
+
+impl std::error::Error for WalkOptionError {}
+
+/// Why there is no walk.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum LodWalkError {
+    /// An option is out of its range.
+    Option(WalkOptionError),
+    /// The document has no faces with three different corners.
+    NoFaces {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A mesh has no positions of three numbers, or not for all vertices.
+    NoPositions {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
+    /// A face is at a position that is not finite.
+    NotFinite {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
+    /// All meshes together are too large, or not sound.
+    Mesh {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        error: MeshError,
+    },
+    /// A camera sees nothing.
+    View {
+        /// The frame.
+        frame: usize,
+        /// Why.
+        error: ViewError,
+    },
+    /// The slots cannot take these vertices.
+    Cache(GeometryCacheError),
+    /// The document cannot be read.
+    File(FileError),
+}
+
+impl fmt::Display for LodWalkError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Option(error) => error.fmt(f),
+            Self::NoFaces { file } => write!(
+                f,
+                "{}: there are no faces to walk around: name a file with a mesh",
+                file.display()
+            ),
+            Self::NoPositions { file, mesh } => write!(
+                f,
+                "{}: {mesh} has no positions of three numbers for all its vertices: re-export the file with them",
+                file.display()
+            ),
+            Self::NotFinite { file, mesh } => write!(
+                f,
+                "{}: {mesh} has a face at a position that is not finite: fix it there, or re-export the file",
+                file.display()
+            ),
+            Self::Mesh { file, error } => write!(f, "{}: {error}", file.display()),
+            Self::View { frame, error } => write!(f, "frame {frame}: {error}"),
+            Self::Cache(error) => error.fmt(f),
+            Self::File(error) => error.fmt(f),
+        }
+    }
+}
+
+// No `source`: the text above already says it.
+impl std::error::Error for LodWalkError {}
+
+impl From<WalkOptionError> for LodWalkError {
+    fn from(error: WalkOptionError) -> Self {
+        Self::Option(error)
+    }
+}
+
+impl From<FileError> for LodWalkError {
+    fn from(error: FileError) -> Self {
+        Self::File(error)
+    }
+}
+
+impl From<GeometryCacheError> for LodWalkError {
+    fn from(error: GeometryCacheError) -> Self {
+        Self::Cache(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_out_of_range_are_named() {
+        let usual = LodWalkOptions::default();
+        assert_eq!(usual.check(), Ok(()));
+        let cases = [
+            (
+                LodWalkOptions {
+                    frames: Some(0),
+                    ..usual.clone()
+                },
+                "frames 0: give 1 to 1000000",
+            ),
+            (
+                LodWalkOptions {
+                    size: [800, 0],
+                    ..usual.clone()
+                },
+                "size 800x0: give 1 to 65535 pixels",
+            ),
+            (
+                LodWalkOptions {
+                    tolerance: 0.0,
+                    ..usual.clone()
+                },
+                "tolerance 0: give a number of pixels above 0",
+            ),
+            (
+                LodWalkOptions {
+                    tolerance: f64::NAN,
+                    ..usual.clone()
+                },
+                "tolerance NaN",
+            ),
+            (
+                LodWalkOptions {
+                    hysteresis: 1.5,
+                    ..usual.clone()
+                },
+                "hysteresis 1.5: give a part",
+            ),
+            (
+                LodWalkOptions {
+                    slots: 2,
+                    ..usual.clone()
+                },
+                "slots 2: give 3, which a face needs",
+            ),
+            (
+                LodWalkOptions {
+                    vertex_size: 0,
+                    ..usual.clone()
+                },
+                "vertex-size 0: give 1 to",
+            ),
+            (
+                LodWalkOptions {
+                    path: CameraPath::Given([].into()),
+                    ..usual
+                },
+                "path of 0 cameras",
+            ),
+        ];
+        for (options, expected) in cases {
+            let error = options.check().unwrap_err().to_string();
+            assert!(error.starts_with(expected), "{error}");
+        }
+    }
+}

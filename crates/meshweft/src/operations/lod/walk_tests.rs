@@ -1,0 +1,307 @@
+//! Walks around small meshes: what the card has is the front, and figures add up.
+
+use std::cell::Cell;
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use super::frame::{WalkFrame, WalkQuantity};
+use super::loading::load;
+use super::options::{LodWalkError, LodWalkOptions};
+use super::paths::CameraPath;
+use super::walk::{Walker, lod_walk};
+use crate::files::{Document, Format, ReadOptions};
+use crate::lod::geometry_cache::Eviction;
+use crate::progress::Progress;
+
+/// Two bumpy hills of squares, in two objects of an OBJ, one above the other.
+fn hills() -> Document {
+    let side = 40;
+    let mut text = String::new();
+    for object in 0..2 {
+        writeln!(text, "o hill{object}").unwrap();
+        for i in 0..(side + 1) * (side + 1) {
+            let [x, y] = [i % (side + 1), i / (side + 1)].map(|at| f64::from(at) / 4.0);
+            let height = 5.0 * f64::from(object) + (2.1 * x).sin() * (1.7 * y).cos();
+            writeln!(text, "v {x} {height} {y}").unwrap();
+        }
+        let first = 1 + object * (side + 1) * (side + 1);
+        for i in 0..side * side {
+            let corner = first + i / side * (side + 1) + i % side;
+            let above = corner + side + 1;
+            writeln!(text, "f {corner} {above} {}", corner + 1).unwrap();
+            writeln!(text, "f {} {above} {}", corner + 1, above + 1).unwrap();
+        }
+    }
+    from_obj(&text)
+}
+
+fn from_obj(text: &str) -> Document {
+    let name = Path::new("hills.obj");
+    Document::from_bytes(text.into(), Format::Obj, name, ReadOptions::default()).unwrap()
+}
+
+fn options(path: CameraPath, slots: usize) -> LodWalkOptions {
+    LodWalkOptions {
+        path,
+        slots,
+        frames: Some(60),
+        tolerance: 3.0,
+        optimum: true,
+        ..LodWalkOptions::default()
+    }
+}
+
+fn report(document: &Document, options: &LodWalkOptions) -> super::report::LodWalkReport {
+    lod_walk(document, options, &|| 0.0, &()).unwrap()
+}
+
+#[test]
+fn the_card_has_the_front_in_every_frame() {
+    let document = hills();
+    for path in CameraPath::SHAPES {
+        for (slots, passes) in [(65_536, false), (400, false), (400, true), (3, true)] {
+            let options = LodWalkOptions {
+                passes,
+                ..options(path.clone(), slots)
+            };
+            let loaded = load(&document).unwrap();
+            let mut walker = Walker::new(loaded.hierarchy, &options).unwrap();
+            let mut active = walker.front.vertex_count();
+            assert!(active > 0);
+            for frame in 0..30 {
+                let camera = path.camera(loaded.ball, frame, 30, [800, 600]);
+                let view = camera.view(options.tolerance).unwrap();
+                let row = walker.frame(&view, &|| 0.0).unwrap();
+                active = active + row.added - row.removed;
+                assert_eq!(row.vertices, active);
+                assert_eq!(walker.front.vertices().count(), active);
+                assert_eq!(walker.cache.active().len(), active);
+                assert!(walker.indices.is_true_to(&walker.cache));
+                check(&walker, &row, &options);
+            }
+        }
+    }
+}
+
+/// What is drawn is the front, and costs what it has to.
+fn check(walker: &Walker, row: &WalkFrame, options: &LodWalkOptions) {
+    let is_overfull = row.vertices > options.slots;
+    assert_eq!(row.is_streamed, is_overfull && !options.passes);
+    assert_eq!(row.passes > 1, is_overfull && options.passes);
+    assert_eq!(row.vertex_bytes, 36 * row.inserts as u64);
+    if row.is_streamed {
+        assert_eq!(row.inserts, row.vertices);
+    }
+    if row.passes > 1 {
+        assert!(row.inserts + options.slots >= row.vertices);
+    }
+
+    // Faces that live in the index buffer are those of the front, with the same corners.
+    let mut living = 0;
+    for (face, corners) in walker.front.faces() {
+        let place = walker.indices.place(face).unwrap() as usize;
+        assert_eq!(walker.indices.corners()[place], corners);
+        living += 1;
+    }
+    assert_eq!(living, row.faces);
+    let places = walker.indices.corners().iter();
+    let is_face = |&&[a, b, _]: &&[u32; 3]| a != b;
+    assert_eq!(places.filter(is_face).count(), row.faces);
+}
+
+#[test]
+fn figures_add_up() {
+    let document = hills();
+    for path in CameraPath::SHAPES {
+        let most = report(&document, &options(path.clone(), 65_536));
+        let largest = most
+            .frames
+            .iter()
+            .map(|frame| frame.vertices)
+            .max()
+            .unwrap();
+        let small = largest + largest / 10;
+        let mut fewest = None;
+        for policy in Eviction::ALL {
+            let options = LodWalkOptions {
+                policy,
+                ..options(path.clone(), small)
+            };
+            let report = report(&document, &options);
+            let total = |quantity| report.summary(quantity).total;
+            let optimum = report.optimum.unwrap();
+            let inserts = total(WalkQuantity::Inserts);
+            assert!(inserts >= optimum.fewest_inserts.unwrap() as f64);
+            assert!(optimum.fewest_inserts.unwrap() >= optimum.distinct_vertices as u64);
+            assert_eq!(
+                *fewest.get_or_insert(optimum),
+                optimum,
+                "it is of the path alone"
+            );
+            if policy == Eviction::Nothing {
+                assert_eq!(inserts, total(WalkQuantity::Vertices));
+            } else {
+                assert!(inserts < total(WalkQuantity::Vertices) / 4.0);
+            }
+            assert_eq!(total(WalkQuantity::VertexBytes), 36.0 * inserts);
+            assert_eq!(report.frames.len(), 60);
+            assert!(most.mesh.roots < largest && largest < most.mesh.vertices);
+        }
+        // With slots for all, each vertex is sent once.
+        let optimum = most.optimum.unwrap();
+        let inserts = most.summary(WalkQuantity::Inserts).total;
+        assert_eq!(inserts, optimum.distinct_vertices as f64);
+        assert_eq!(
+            optimum.fewest_inserts,
+            Some(optimum.distinct_vertices as u64)
+        );
+    }
+}
+
+#[test]
+fn objects_are_one_mesh() {
+    let mesh = report(&hills(), &options(CameraPath::Zoom, 9000)).mesh;
+    assert_eq!((mesh.vertices, mesh.faces), (2 * 41 * 41, 2 * 2 * 40 * 40));
+}
+
+#[test]
+fn summaries_have_the_first_frame_apart() {
+    let mut report = report(&hills(), &options(CameraPath::Circle, 9000));
+    let frame = |added| WalkFrame {
+        added,
+        ..WalkFrame::default()
+    };
+    report.frames = [1000, 1, 7, 2, 4].map(frame).to_vec();
+    let found = report.summary(WalkQuantity::Added);
+    let found = [
+        found.first,
+        found.mean,
+        found.median,
+        found.worst,
+        found.total,
+    ];
+    assert_eq!(found, [1000.0, 3.5, 3.0, 7.0, 1014.0]);
+    report.frames.truncate(4);
+    assert_eq!(report.summary(WalkQuantity::Added).median, 2.0);
+    report.frames.truncate(1);
+    let found = report.summary(WalkQuantity::Added);
+    let found = [
+        found.first,
+        found.mean,
+        found.median,
+        found.worst,
+        found.total,
+    ];
+    assert_eq!(found, [1000.0, 0.0, 0.0, 0.0, 1000.0]);
+}
+
+#[test]
+fn hysteresis_changes_less() {
+    let document = hills();
+    let changes = |hysteresis| {
+        let options = LodWalkOptions {
+            hysteresis,
+            ..options(CameraPath::Rotate, 9000)
+        };
+        report(&document, &options)
+            .summary(WalkQuantity::Removed)
+            .total
+    };
+    assert!(changes(0.5) < 0.7 * changes(1.0));
+}
+
+/// Times are of the caller's clock: here each look at it takes a second.
+#[test]
+fn times_are_those_of_the_clock() {
+    let now = Cell::new(0.0);
+    let clock = || {
+        now.set(now.get() + 1.0);
+        now.get()
+    };
+    let options = options(CameraPath::Fly, 9000);
+    let report = lod_walk(&hills(), &options, &clock, &()).unwrap();
+    assert_eq!(report.build_seconds, 1.0);
+    for quantity in WalkQuantity::ALL.into_iter().filter(|it| it.is_time()) {
+        assert_eq!(report.summary(quantity).total, 60.0 * 1000.0);
+    }
+}
+
+#[test]
+fn the_report_is_json() {
+    let options = options(CameraPath::Fly, 300);
+    let report = report(&hills(), &options);
+    let json: serde_json::Value = serde_json::from_str(&report.to_json()).unwrap();
+    assert_eq!(json["command"], "lod walk");
+    assert_eq!(json["path"], "fly");
+    let frames = json["frames"].as_array().unwrap();
+    assert_eq!((frames.len(), &json["frame_count"]), (60, &60.into()));
+    let number = |value: &serde_json::Value| value.as_u64().unwrap();
+    for name in ["vertices", "inserts", "index_bytes"] {
+        let sum: u64 = frames.iter().map(|frame| number(&frame[name])).sum();
+        assert_eq!(number(&json["summary"][name]["total"]), sum);
+    }
+    let inserts = number(&json["summary"]["inserts"]["total"]);
+    assert!(inserts >= number(&json["optimum"]["distinct_vertices"]));
+}
+
+#[test]
+fn a_walk_can_be_stopped() {
+    struct Stop;
+    impl Progress for Stop {
+        fn report(&self, fraction: f64) -> ControlFlow<()> {
+            match fraction < 0.5 {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
+            }
+        }
+    }
+    let report = lod_walk(&hills(), &options(CameraPath::Zoom, 9000), &|| 0.0, &Stop).unwrap();
+    assert!((report.is_stopped, report.frames.len()) == (true, 30));
+}
+
+#[test]
+fn what_cannot_be_walked_around_is_told() {
+    let walk = |text: &str, options: &LodWalkOptions| {
+        let found = lod_walk(&from_obj(text), options, &|| 0.0, &());
+        found
+            .map(|report| report.frames.len())
+            .map_err(|error| error.to_string())
+    };
+    let usual = options(CameraPath::Circle, 9000);
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    assert_eq!(walk(triangle, &usual), Ok(60));
+    let flat = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n";
+    for text in ["v 0 0 0\n", flat] {
+        let error = walk(text, &usual).unwrap_err();
+        assert!(
+            error.starts_with("hills.obj: there are no faces to walk around"),
+            "{error}"
+        );
+    }
+    let none = LodWalkOptions {
+        slots: 2,
+        ..usual.clone()
+    };
+    let error = walk(triangle, &none).unwrap_err();
+    assert_eq!(error, "slots 2: give 3, which a face needs, to 1073741824");
+
+    // A camera that sees nothing.
+    let document = hills();
+    let loaded = load(&document).unwrap();
+    let camera = CameraPath::Circle.camera(loaded.ball, 0, 9, [9, 9]);
+    let blind = crate::lod::fast_mesh::Camera {
+        target: camera.eye,
+        ..camera
+    };
+    let options = LodWalkOptions {
+        path: CameraPath::Given([camera, blind].into()),
+        frames: None,
+        ..usual
+    };
+    let error = lod_walk(&document, &options, &|| 0.0, &()).unwrap_err();
+    assert!(
+        matches!(error, LodWalkError::View { frame: 1, .. }),
+        "{error}"
+    );
+}
