@@ -74,7 +74,7 @@ enum Policy {
     Finest,
     /// The slot that was used least recently
     Lru,
-    /// The finest detail of the oldest slots, a tenth of all that are open for 30 frames
+    /// The finest detail of the oldest slots: a tenth of all at most, open for 30 frames
     Queue,
     /// The first slot that was used neither in this frame nor in the last
     First,
@@ -196,8 +196,8 @@ fn text(report: &LodWalkReport) -> String {
     let (options, mesh) = (&report.options, &report.mesh);
     let [width, height] = options.size;
     let mut text = format!(
-        "{}: {} vertices, {} faces, coarsest with {} vertices\n\
-         {}, {} frames of {width} x {height}, {} pixels; {} slots, {}\n",
+        "{}: vertices {}, faces {}; coarsest with vertices {}\n\
+         {}, frames {} of {width} x {height}, tolerance {} px; slots {}, {}\n",
         report.file.display(),
         mesh.vertices,
         mesh.faces,
@@ -213,20 +213,21 @@ fn text(report: &LodWalkReport) -> String {
     for (quantity, name, digits) in ROWS {
         let it = report.summary(quantity);
         let [count, part] = [digits, digits.max(1)];
-        rows.push(vec![
-            name.to_owned(),
-            format!("{:.count$}", it.first),
-            format!("{:.part$}", it.mean),
-            format!("{:.part$}", it.median),
-            format!("{:.count$}", it.worst),
-            format!("{:.count$}", it.total),
-        ]);
+        let later = [(it.mean, part), (it.median, part), (it.worst, count)];
+        let later = later.map(|(value, digits)| match report.frames.len() {
+            1 => "-".to_owned(),
+            _ => format!("{value:.digits$}"),
+        });
+        let [first, all] = [it.first, it.total].map(|value| format!("{value:.count$}"));
+        rows.push([&[name.to_owned(), first], &later[..], &[all]].concat());
     }
     text += &columns(&rows);
 
     let [streamed, in_passes] = report.overfull_frames();
     if streamed > 0 && options.policy != Eviction::Nothing {
-        text += &format!("\nframes of more vertices than slots: {streamed}, streamed");
+        text += &format!(
+            "\nframes of more vertices than slots: {streamed}, streamed (--passes or more --slots send less)"
+        );
     }
     if in_passes > 0 {
         let passes = report.summary(WalkQuantity::Passes).total;

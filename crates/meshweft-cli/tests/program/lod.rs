@@ -48,8 +48,8 @@ fn a_walk_is_counted_and_plotted() {
     let run = walk(&["--path", "fly", "--optimum", "--plot", "frames.svg"]);
     assert_eq!(run.code(), 0, "{}", run.err());
     for expected in [
-        "waves.off: 2601 vertices, 5000 faces, coarsest with ",
-        "fly, 80 frames of 800 x 800, 1.5 pixels; 65536 slots, finest first\n",
+        "waves.off: vertices 2601, faces 5000; coarsest with vertices ",
+        "fly, frames 80 of 800 x 800, tolerance 1.5 px; slots 65536, finest first\n",
         "active vertices ",
         "vertices sent ",
         "ms, indices ",
@@ -133,6 +133,9 @@ fn cameras_come_from_a_file() {
     );
     let first = walk(&["path.json", "--frames", "2"]).json();
     assert_eq!(first["frame_count"], 2);
+    let run = folder.run(&["lod", "walk", "waves.off", "--frames", "1"]);
+    assert_eq!(run.out().lines().count(), 3 + 12, "{}", run.out());
+    assert_eq!(run.out().matches(" -  ").count(), 3 * 12, "{}", run.out());
     for name in ["vertices", "faces", "inserts"] {
         assert_eq!(first["frames"][1][name], report["frames"][1][name]);
     }

@@ -77,7 +77,8 @@ impl LodWalkReport {
         let first = values.clone().next().unwrap_or_default();
         let mut later: Vec<f64> = values.skip(1).collect();
         later.sort_by(f64::total_cmp);
-        let sum: f64 = later.iter().sum();
+        // Not by `sum`, which has a sign where there is nothing.
+        let sum = later.iter().fold(0.0, |sum, value| sum + value);
         let at = |place: usize| later.get(place).copied().unwrap_or_default();
         WalkSummary {
             first,
