@@ -25,8 +25,8 @@ enum Verb {
     ///   meshweft lod walk scan.ply --path fly --tolerance .5 --slots 32768 --policy lru --optimum
     ///   meshweft lod walk scan.ply --path cameras.json --json --plot frames.svg
     ///
-    /// A file of cameras is {"fov":45,"frames":[{"eye":[0,0,9],"target":[0,0,0],"up":[0,1,0]}]}, one camera a frame; fov is in
-    /// degrees from the bottom of the picture to its top.
+    /// A file of cameras has one for each frame; fov is in degrees from the bottom of the picture to its top:
+    /// `{"fov":45,"frames":[{"eye":[0,0,9],"target":[0,0,0],"up":[0,1,0]}]}`
     #[command(verbatim_doc_comment)]
     Walk(Walk),
 }
