@@ -1,4 +1,4 @@
-//! View-dependent level of detail: what to draw of a mesh that is larger than what a frame may cost.
+//! View-dependent level of detail: what to draw of a mesh that costs more than a frame allows.
 
 pub mod fast_mesh;
 pub mod geometry_cache;

@@ -6,7 +6,7 @@ use std::fmt;
 use super::cone::Cone;
 use crate::geometry::double::{cross, dot, scaled, sub};
 
-/// A camera with perspective, in the space of the mesh, and the error that it may see.
+/// A perspective camera, in the space of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// Where the eye is.
@@ -32,13 +32,13 @@ pub struct CameraView {
     sees_back_faces: bool,
 }
 
-/// Why there is nothing to see for a camera.
+/// Why a camera cannot be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ViewError {
     /// A number of the camera is not finite.
     NotFinite,
-    /// The eye is where it looks, or looks up.
+    /// The target is at the eye, or `up` is along the line of sight.
     NoDirection,
     /// The field of view, the size or the tolerance is out of its range.
     OutOfRange,
