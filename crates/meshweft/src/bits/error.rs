@@ -28,6 +28,8 @@ pub enum DecodeErrorKind {
     },
     /// It does not begin as an archive of meshes does.
     NoArchive,
+    /// It does not begin as a vertex hierarchy does.
+    NoHierarchy,
     /// It is not such a stream, or was written by a later version.
     Unknown {
         /// What is not known.
@@ -52,6 +54,12 @@ pub enum DecodeErrorKind {
 }
 
 impl DecodeError {
+    /// The end of the bytes, too early.
+    pub(crate) fn ends_early(byte: usize) -> Self {
+        let kind = DecodeErrorKind::EndsEarly;
+        Self { byte, kind }
+    }
+
     /// Damage at a byte.
     pub(crate) fn damaged(byte: usize) -> Self {
         let kind = DecodeErrorKind::Damaged;
@@ -80,6 +88,10 @@ impl fmt::Display for DecodeError {
             DecodeErrorKind::NoArchive => write!(
                 f,
                 "this is not a .mwz file. Give one that was written by compress"
+            ),
+            DecodeErrorKind::NoHierarchy => write!(
+                f,
+                "this is not a .mwl file. Give one that was written by lod build"
             ),
             DecodeErrorKind::Unknown { what, found } => write!(
                 f,

@@ -113,6 +113,11 @@ impl HalfEdges {
         self.edges[half_edge as usize].start = vertex;
     }
 
+    /// The other side of its edge is another one from now on, which need not know.
+    pub(crate) fn set_twin(&mut self, half_edge: u32, twin: u32) {
+        self.edges[half_edge as usize].twin = twin;
+    }
+
     /// Two half-edges are twins from now on; one that is there without the other is at a border.
     #[inline]
     pub(crate) fn join(&mut self, a: u32, b: u32) {

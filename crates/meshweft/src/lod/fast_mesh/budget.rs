@@ -3,9 +3,10 @@
 use std::cmp::Reverse;
 
 use super::changes::FrontChanges;
-use super::front::{Front, WAITING};
+use super::front::Front;
+use super::loader::{BlockLoader, Complete};
 use super::queues::{BudgetQueues, Queued};
-use super::view::CameraView;
+use super::view::{CameraView, DetailBound};
 
 /// What a frame may have and may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,6 +31,8 @@ impl Default for FrameBudget {
 enum FrontStep {
     Split(u32),
     Collapse(u32),
+    /// Of this point more is known than when it was put into the queue.
+    LookAgain(u32),
 }
 
 impl Front {
@@ -52,6 +55,18 @@ impl Front {
         hysteresis: f64,
         budget: FrameBudget,
     ) -> (&FrontChanges, bool) {
+        let Ok(is_done) = self.update_within_by(view, hysteresis, budget, &mut Complete);
+        (self.changes(), is_done)
+    }
+
+    /// The same where points may be missing. If one cannot be read, the mesh is somewhere between, and what changed is said.
+    pub(super) fn update_within_by<L: BlockLoader>(
+        &mut self,
+        view: &CameraView,
+        hysteresis: f64,
+        budget: FrameBudget,
+        loader: &mut L,
+    ) -> Result<bool, L::Error> {
         self.begin(hysteresis);
         let mut queues = std::mem::take(&mut self.queues);
         for list in [&self.waiting, &self.active] {
@@ -60,33 +75,47 @@ impl Front {
         self.put_moved(view, &mut queues);
 
         let mut left = budget.changes;
-        let mut is_done = false;
-        while left > 0 {
-            let Some(step) = self.next_step(&mut queues, hysteresis, budget.vertices) else {
-                is_done = true;
-                break;
-            };
-            left -= 1;
-            match step {
-                FrontStep::Split(point) => self.split(point),
-                FrontStep::Collapse(point) => self.collapse(point),
+        let result = loop {
+            if left == 0 {
+                break Ok(false);
             }
+            let step = self.next_step(&mut queues, hysteresis, budget.vertices, loader);
+            let changed = match step {
+                Ok(Some(FrontStep::Split(point))) => self.split(point, loader),
+                Ok(Some(FrontStep::Collapse(point))) => {
+                    self.collapse(point);
+                    Ok(())
+                }
+                Ok(Some(FrontStep::LookAgain(point))) => {
+                    self.moved.push(point);
+                    left += 1;
+                    Ok(())
+                }
+                Ok(None) => break Ok(true),
+                Err(error) => Err(error),
+            };
+            if let Err(error) = changed {
+                break Err(error);
+            }
+            left -= 1;
             self.put_moved(view, &mut queues);
-        }
+        };
 
         queues.splits.clear();
         queues.collapses.clear();
         self.queues = queues;
-        (self.settle(), is_done)
+        self.settle();
+        result
     }
 
     /// The most urgent split if there is room, or else the least urgent collapse.
-    fn next_step(
+    fn next_step<L: BlockLoader>(
         &mut self,
         queues: &mut BudgetQueues,
         hysteresis: f64,
         most_vertices: usize,
-    ) -> Option<FrontStep> {
+        loader: &mut L,
+    ) -> Result<Option<FrontStep>, L::Error> {
         // Points that were split with others, or left the list, are passed.
         // Points that were split with others, or that others need by now, are passed.
         while let Some(top) = queues.splits.peek()
@@ -102,52 +131,64 @@ impl Front {
         let least = queues.collapses.peek().map(|it| it.0);
 
         if self.vertex_count() > most_vertices {
-            return least.map(|it| FrontStep::Collapse(it.point));
+            return Ok(least.map(|it| FrontStep::Collapse(it.point)));
         }
         let Some(&most) = queues.splits.peek() else {
             let is_hidden = |it: &Queued| !it.urgency.is_above(hysteresis);
-            return least
-                .filter(is_hidden)
-                .map(|it| FrontStep::Collapse(it.point));
+            let hidden = least.filter(is_hidden);
+            return Ok(hidden.map(|it| FrontStep::Collapse(it.point)));
         };
+        let is_known =
+            !self.fetch(most.point, loader)? && *self.waiting_bound(most.point) == most.bound;
+        if !is_known {
+            queues.splits.pop();
+            return Ok(Some(FrontStep::LookAgain(most.point)));
+        }
         let room = most_vertices - self.vertex_count();
-        if self.needs_at_most(most.point, room) {
-            return Some(FrontStep::Split(most.point));
+        if self.needs_at_most(most.point, room, loader)? {
+            return Ok(Some(FrontStep::Split(most.point)));
         }
         let makes_room = |it: &Queued| it.urgency.is_below(most.urgency, hysteresis);
-        least
-            .filter(makes_room)
-            .map(|it| FrontStep::Collapse(it.point))
+        let less = least.filter(makes_room);
+        Ok(less.map(|it| FrontStep::Collapse(it.point)))
     }
 
     /// Whether a split adds at most this number of vertices, with those of the points that it needs.
-    fn needs_at_most(&mut self, point: u32, room: usize) -> bool {
+    fn needs_at_most<L: BlockLoader>(
+        &mut self,
+        point: u32,
+        room: usize,
+        loader: &mut L,
+    ) -> Result<bool, L::Error> {
         let mut count = 0;
+        let mut result = Ok(());
         self.to_split.push(point);
         while let Some(point) = self.to_split.pop() {
             if self.is_active(point) || !self.looked_at.touch(point, false) {
                 continue;
             }
             count += self.hierarchy.vertices_of(point).count();
-            if count > room {
+            result = self.fetch(point, loader).map(|_| ());
+            if count > room || result.is_err() {
                 self.to_split.clear();
             } else {
                 self.to_split.extend(self.hierarchy.needed_by(point));
             }
         }
         self.looked_at.drain(|_, _| {});
-        count <= room
+        result.map(|()| count <= room)
     }
 
     /// Points that are new in their lists, and those that no other needs any more, go into the queues.
     fn put_moved(&mut self, view: &CameraView, queues: &mut BudgetQueues) {
         while let Some(point) = self.moved.pop().or_else(|| self.to_collapse.pop()) {
-            let queued = |bound| Queued {
+            let queued = |bound: &DetailBound| Queued {
                 urgency: view.urgency(bound),
+                bound: *bound,
                 point,
             };
             if self.is_waiting(point) {
-                let queued = queued(self.waiting.bound(self.places[point as usize] - WAITING));
+                let queued = queued(self.waiting_bound(point));
                 if queued.urgency.is_above(1.0) {
                     queues.splits.push(queued);
                 }

@@ -103,6 +103,15 @@ impl PackedCone {
             sine: sine as f32,
         })
     }
+
+    pub(super) fn to_bits(self) -> u32 {
+        self.0
+    }
+
+    /// Any bits are a cone.
+    pub(super) fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
 }
 
 impl Cone {

@@ -2,9 +2,11 @@
 
 use super::changes::{FrontChanges, Touched};
 use super::hierarchy::VertexHierarchy;
+use super::loader::{BlockLoader, Complete};
+use super::missing::BLOCK_POINTS;
 use super::queues::BudgetQueues;
 use super::tested::TestedPoints;
-use super::view::CameraView;
+use super::view::{CameraView, DetailBound};
 use crate::topology::half_edges::NONE;
 
 /// A mesh as coarse as a view allows, which follows the view from frame to frame.
@@ -67,7 +69,7 @@ impl Front {
         };
         for root in 0..front.hierarchy.roots {
             let child = front.hierarchy.nodes[root as usize].first_child;
-            front.wait(child);
+            front.wait(child, root);
         }
         front.vertex_count = front.vertices().count();
         front
@@ -106,11 +108,10 @@ impl Front {
     /// The three vertices of a face, counterclockwise as seen from outside; `None` if it is not there.
     #[must_use]
     pub fn face(&self, face: u32) -> Option<[u32; 3]> {
-        let is_there = match self.hierarchy.point_of_face(face) {
-            Some(point) => self.is_active(point) && self.hierarchy.edges.start(3 * face) != NONE,
-            None => true,
-        };
-        is_there.then(|| self.hierarchy.edges.face(face))
+        let point = self.hierarchy.point_of_face(face);
+        let is_there = point.is_none_or(|point| self.is_active(point));
+        let corners = self.hierarchy.edges.face(face);
+        (is_there && !corners.contains(&NONE)).then_some(corners)
     }
 
     /// All faces that are there, with their numbers, in no particular order.
@@ -143,19 +144,42 @@ impl Front {
     /// # Panics
     /// If `hysteresis` is not above 0 and at most 1.
     pub fn update(&mut self, view: &CameraView, hysteresis: f64) -> &FrontChanges {
+        let Ok(()) = self.update_by(view, hysteresis, &mut Complete);
+        &self.changes
+    }
+
+    /// The same where points may be missing. If one cannot be read, the mesh is somewhere between, and what changed is said.
+    pub(super) fn update_by<L: BlockLoader>(
+        &mut self,
+        view: &CameraView,
+        hysteresis: f64,
+        loader: &mut L,
+    ) -> Result<(), L::Error> {
         self.begin(hysteresis);
-        self.refine(view);
-        self.coarsen(&view.with_tolerance(hysteresis));
-        self.settle()
+        let result = self.refine(view, loader);
+        if result.is_ok() {
+            self.coarsen(&view.with_tolerance(hysteresis));
+        }
+        self.settle();
+        result
     }
 
     /// Makes every point active: the mesh of the input.
     pub fn refine_fully(&mut self) -> &FrontChanges {
+        let Ok(()) = self.refine_fully_by(&mut Complete);
+        &self.changes
+    }
+
+    /// The same where points may be missing.
+    pub(super) fn refine_fully_by<L: BlockLoader>(
+        &mut self,
+        loader: &mut L,
+    ) -> Result<(), L::Error> {
         self.begin(1.0);
-        for point in self.hierarchy.leaving_points() {
-            self.split(point);
-        }
-        self.settle()
+        let mut points = self.hierarchy.leaving_points();
+        let result = points.try_for_each(|point| self.split(point, loader));
+        self.settle();
+        result
     }
 
     /// Nothing changed yet.
@@ -167,11 +191,52 @@ impl Front {
         self.to_collapse.clear();
     }
 
-    fn refine(&mut self, view: &CameraView) {
+    fn refine<L: BlockLoader>(
+        &mut self,
+        view: &CameraView,
+        loader: &mut L,
+    ) -> Result<(), L::Error> {
         self.waiting.rewind();
         while let Some(point) = self.waiting.next(|bound| view.needs(bound)) {
-            self.split(point);
+            // What was known of it before it was read may have asked for too much.
+            let is_new = self.fetch(point, loader)?;
+            if !is_new || view.needs(self.waiting_bound(point)) {
+                self.split(point, loader)?;
+            }
         }
+        Ok(())
+    }
+
+    /// Reads the block of a point that may leave, if it is missing; whether it was.
+    pub(super) fn fetch<L: BlockLoader>(
+        &mut self,
+        point: u32,
+        loader: &mut L,
+    ) -> Result<bool, L::Error> {
+        let missing = &self.hierarchy.missing;
+        if missing.largest_error(point).is_none() {
+            return Ok(false);
+        }
+        let block = missing.block_of(point);
+        loader.load(block, &mut self.hierarchy)?;
+        self.hierarchy.missing.read(block);
+
+        // The tests know more of those that wait.
+        let points = self.hierarchy.leaving_points();
+        let first = points.start + crate::index::index32(block) * BLOCK_POINTS;
+        for point in first..first.saturating_add(BLOCK_POINTS).min(points.end) {
+            if self.is_waiting(point) {
+                let bound = self.hierarchy.bound(point);
+                let place = self.places[point as usize] - WAITING;
+                self.waiting.set_bound(place, bound);
+            }
+        }
+        Ok(true)
+    }
+
+    /// What the test needs of a point that waits.
+    pub(super) fn waiting_bound(&self, point: u32) -> &DetailBound {
+        self.waiting.bound(self.places[point as usize] - WAITING)
     }
 
     fn coarsen(&mut self, view: &CameraView) {
@@ -197,12 +262,26 @@ impl Front {
     }
 
     /// Makes a point active, and before it those that it needs.
-    pub(super) fn split(&mut self, point: u32) {
+    pub(super) fn split<L: BlockLoader>(
+        &mut self,
+        point: u32,
+        loader: &mut L,
+    ) -> Result<(), L::Error> {
         self.to_split.push(point);
         while let Some(&point) = self.to_split.last() {
+            // In a hierarchy that someone made up, points may need each other.
+            let is_circle = self.to_split.len() > self.places.len();
+            if is_circle {
+                self.to_split.clear();
+                break;
+            }
             if self.is_active(point) {
                 self.to_split.pop();
                 continue;
+            }
+            if let Err(error) = self.fetch(point, loader) {
+                self.to_split.clear();
+                return Err(error);
             }
             let is_missing = |it: &u32| !self.is_active(*it);
             let missing = self.hierarchy.needed_by(point).find(is_missing);
@@ -211,6 +290,7 @@ impl Front {
                 None => self.split_one(point),
             }
         }
+        Ok(())
     }
 
     /// Makes a point active whose needed ones are.
@@ -237,8 +317,8 @@ impl Front {
         self.vertex_count += self.hierarchy.vertices_of(point).count();
 
         let node = self.hierarchy.nodes[point as usize];
-        self.wait(node.first_child);
-        self.wait(node.next_sibling);
+        self.wait(node.first_child, point);
+        self.wait(node.next_sibling, point);
     }
 
     /// A point leaves that no other needs.
@@ -263,7 +343,7 @@ impl Front {
                 self.waiting.take(below, &mut self.places, WAITING);
             }
         }
-        self.wait(point);
+        self.wait(point, point);
     }
 
     pub(super) fn is_waiting(&self, point: u32) -> bool {
@@ -271,10 +351,13 @@ impl Front {
         place != NONE && place >= WAITING
     }
 
-    /// A point is to be tested, unless it is active or is tested already.
-    fn wait(&mut self, point: u32) {
+    /// A point just below another is to be tested, unless it is active or is tested already.
+    fn wait(&mut self, point: u32, above: u32) {
         if point != NONE && self.places[point as usize] == NONE {
-            let bound = self.hierarchy.bound(point);
+            let bound = match self.hierarchy.missing.largest_error(point) {
+                None => self.hierarchy.bound(point),
+                Some(error) => self.hierarchy.bound_below(above, error),
+            };
             self.waiting.add(point, bound, &mut self.places, WAITING);
             self.moved.push(point);
         }
@@ -292,7 +375,7 @@ impl Front {
             if is_more {
                 *needs += ONE_NEED;
             } else {
-                *needs -= ONE_NEED;
+                *needs = needs.saturating_sub(ONE_NEED);
                 if *needs < ONE_NEED {
                     self.to_collapse.push(other);
                 }

@@ -2,6 +2,7 @@
 
 use super::cone::PackedCone;
 use super::links::Edge;
+use super::missing::MissingBlocks;
 use super::view::DetailBound;
 use crate::index::index32;
 use crate::topology::half_edges::{HalfEdges, NONE};
@@ -25,6 +26,7 @@ pub struct VertexHierarchy {
     pub(super) edges: HalfEdges,
     /// Of each point: four bits for [`Edge::split`], and sixteen times the number of active points that need it, none here.
     pub(super) needs: Vec<u32>,
+    pub(super) missing: MissingBlocks,
     /// The vertex of the input for each.
     pub(super) source_vertices: Vec<u32>,
     /// Faces of the input with two corners at one point.
@@ -113,7 +115,11 @@ impl VertexHierarchy {
         // A node is just below the point whose first child it is, or below the sibling before it.
         let mut deepest = 0;
         let mut stack: Vec<(u32, usize)> = (0..self.roots).map(|root| (root, 0)).collect();
-        while let Some((point, depth)) = stack.pop() {
+        // No more steps than points: someone may have made it up.
+        for _ in 0..self.nodes.len() {
+            let Some((point, depth)) = stack.pop() else {
+                break;
+            };
             deepest = deepest.max(depth);
             let node = self.nodes[point as usize];
             let below = [node.first_child, node.next_sibling];
@@ -157,6 +163,22 @@ impl VertexHierarchy {
         }
     }
 
+    /// Makes places for the faces with which a point leaves, that of the edge forth and that of the edge back, if they are there.
+    pub(super) fn put_edge(&mut self, point: u32, are_there: [bool; 2]) {
+        let first = 3 * (self.root_faces + 2 * (point - self.roots));
+        let firsts = [first, first + 3];
+        for ((here, other), is_there) in firsts.into_iter().zip([first + 3, first]).zip(are_there) {
+            for half_edge in here..here + 3 {
+                let start = if is_there { point } else { NONE };
+                self.edges.set_start(half_edge, start);
+                self.edges.set_twin(half_edge, NONE);
+            }
+            if are_there == [true; 2] {
+                self.edges.set_twin(here, other);
+            }
+        }
+    }
+
     /// The point with which a face leaves; `None` if it never does.
     #[inline]
     pub(super) fn point_of_face(&self, face: u32) -> Option<u32> {
@@ -181,6 +203,23 @@ impl VertexHierarchy {
             radius: node.radius,
             error: node.error,
             cone: node.cone.unpacked(),
+        }
+    }
+
+    /// The same of a point just below another one that was not read yet, as far as that is known: it may ask for too much.
+    pub(super) fn bound_below(&self, above: u32, largest_error: f32) -> DetailBound {
+        if self.may_leave(above) {
+            let bound = self.bound(above);
+            return DetailBound {
+                error: bound.error.min(largest_error),
+                ..bound
+            };
+        }
+        DetailBound {
+            center: self.positions[above as usize],
+            radius: f32::INFINITY,
+            error: largest_error,
+            cone: PackedCone::ALL.unpacked(),
         }
     }
 

@@ -29,9 +29,15 @@ mod deviation;
 mod front;
 mod hierarchy;
 mod links;
+mod loader;
+mod missing;
 mod numbering;
 mod queues;
 mod replay;
+mod stored;
+#[cfg(test)]
+mod stored_tests;
+mod streamed;
 mod tested;
 #[cfg(test)]
 mod tests;
@@ -42,4 +48,5 @@ pub use build::FastMesh;
 pub use changes::FrontChanges;
 pub use front::Front;
 pub use hierarchy::VertexHierarchy;
+pub use streamed::{HierarchyError, StreamedFront};
 pub use view::{Camera, CameraView, ViewError};

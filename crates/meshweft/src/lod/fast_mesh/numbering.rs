@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 
 use super::hierarchy::{HierarchyNode, VertexHierarchy};
+use super::missing::MissingBlocks;
 use super::replay::{Made, Replay};
 use crate::geometry::morton::MortonCells;
 use crate::index::index32;
@@ -57,6 +58,7 @@ pub(super) fn finish(mut replay: Replay<'_>) -> VertexHierarchy {
         needs: std::iter::repeat_n(0, roots as usize)
             .chain(flags)
             .collect(),
+        missing: MissingBlocks::default(),
         source_vertices,
         flat_faces: replay.flat_faces,
         cut_points: replay.cut_points,

@@ -3,12 +3,14 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use super::view::Urgency;
+use super::view::{DetailBound, Urgency};
 
 /// A point with how urgently it has to be active.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Queued {
     pub(super) urgency: Urgency,
+    /// What is known of it.
+    pub(super) bound: DetailBound,
     pub(super) point: u32,
 }
 

@@ -23,6 +23,11 @@ impl TestedPoints {
         &self.entries[place as usize].0
     }
 
+    /// What the test needs of the point at a place is known better.
+    pub(super) fn set_bound(&mut self, place: u32, bound: DetailBound) {
+        self.entries[place as usize].0 = bound;
+    }
+
     /// Begins again.
     pub(super) fn rewind(&mut self) {
         self.seen = 0;

@@ -108,7 +108,7 @@ fn of_input(faces: impl Iterator<Item = [u32; 3]>) -> Vec<[u32; 3]> {
     all
 }
 
-fn camera(random: &mut SplitMix64, extent: f64) -> CameraView {
+pub(super) fn camera(random: &mut SplitMix64, extent: f64) -> CameraView {
     let mut at = |size: f64| [(); 3].map(|()| (random.below(2001) as f64 / 1000.0 - 1.0) * size);
     let (eye, target, up) = (at(2.0 * extent), at(0.3 * extent), at(1.0));
     let camera = Camera {
@@ -214,7 +214,7 @@ fn patched(columns: u32, rows: u32) -> (Mesh, Vec<Attribute>) {
     (Mesh::new(positions, faces).unwrap(), vec![attribute])
 }
 
-fn examples() -> Vec<(&'static str, Mesh, Vec<Attribute>)> {
+pub(super) fn examples() -> Vec<(&'static str, Mesh, Vec<Attribute>)> {
     let (with_seams, attributes) = patched(30, 25);
     let hills_mesh = Mesh::new(hills(30, 30), grid(30, 30)).unwrap();
     // Holes, and two parts that meet at a vertex only.

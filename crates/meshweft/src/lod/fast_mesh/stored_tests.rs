@@ -1,0 +1,161 @@
+//! Hierarchies as bytes: what comes back, what is read of them, and what happens to damaged ones.
+
+use std::io::Cursor;
+
+use super::tests::{camera, examples};
+use super::{Camera, FastMesh, FrameBudget, Front, HierarchyError, StreamedFront, VertexHierarchy};
+use crate::limits::Limits;
+use crate::mesh::Mesh;
+use crate::random::{SplitMix64, from_environment};
+
+fn faces(front: &Front) -> std::collections::BTreeMap<u32, [u32; 3]> {
+    front.faces().collect()
+}
+
+#[test]
+fn hierarchies_come_back() {
+    let mut random = SplitMix64(1);
+    for (name, mesh, attributes) in examples() {
+        let hierarchy = FastMesh::default().build(&mesh, &attributes).unwrap();
+        let bytes = hierarchy.to_bytes();
+        let back = VertexHierarchy::from_bytes(&bytes, Limits::default()).unwrap();
+        assert!(back.to_bytes() == bytes, "{name}");
+        assert_eq!(back.source_vertices(), hierarchy.source_vertices());
+        assert_eq!(back.flat_faces(), hierarchy.flat_faces());
+
+        let (mut one, mut other) = (Front::new(hierarchy), Front::new(back));
+        for _ in 0..10 {
+            let view = camera(&mut random, 25.0);
+            assert_eq!(one.update(&view, 1.0), other.update(&view, 1.0), "{name}");
+        }
+        one.refine_fully();
+        other.refine_fully();
+        assert!(faces(&one) == faces(&other), "{name}");
+    }
+}
+
+#[test]
+fn what_is_read_when_it_is_needed_is_the_same() {
+    let mut random = SplitMix64(2);
+    for (name, mesh, attributes) in examples() {
+        let hierarchy = FastMesh::default().build(&mesh, &attributes).unwrap();
+        let bytes = hierarchy.to_bytes();
+        let mut whole = Front::new(hierarchy);
+        let mut streamed = StreamedFront::open(Cursor::new(&bytes), Limits::default()).unwrap();
+        for case in 0..20 {
+            let view = camera(&mut random, 25.0);
+            if case % 3 == 2 {
+                let budget = FrameBudget {
+                    vertices: 60 + random.below(200),
+                    changes: 20 + random.below(200),
+                };
+                let is_done = whole.update_within(&view, 1.0, budget).1;
+                let found = streamed.update_within(&view, 1.0, budget).unwrap();
+                assert_eq!(found.1, is_done, "{name} {case}");
+            } else {
+                whole.update(&view, 1.0);
+                streamed.update(&view, 1.0).unwrap();
+            }
+            assert!(faces(streamed.front()) == faces(&whole), "{name} {case}");
+        }
+        let [length, read] = streamed.bytes();
+        assert_eq!(length, bytes.len() as u64);
+        assert!(read <= length);
+        streamed.refine_fully().unwrap();
+        assert_eq!(streamed.bytes(), [length; 2], "{name}");
+    }
+}
+
+#[test]
+fn from_afar_little_is_read() {
+    let (_, mesh, _) = examples().into_iter().find(|it| it.0 == "sphere").unwrap();
+    let bytes = FastMesh::default().build(&mesh, &[]).unwrap().to_bytes();
+    let mut streamed = StreamedFront::open(Cursor::new(&bytes), Limits::default()).unwrap();
+    let camera = Camera {
+        eye: [0.0, 0.0, 3000.0],
+        target: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+        field_of_view: 45.0,
+        size: [800, 600],
+    };
+    streamed.update(&camera.view(1.0).unwrap(), 1.0).unwrap();
+    let [length, read] = streamed.bytes();
+    assert!(read * 2 < length, "{read} of {length}");
+}
+
+#[test]
+fn an_empty_mesh_has_a_hierarchy() {
+    for mesh in [
+        Mesh::default(),
+        Mesh::new([[0.0; 3]; 3], []).unwrap(),
+        Mesh::new([[0.0; 3]; 3], [[0, 1, 2]]).unwrap(),
+        Mesh::new([[0.0; 3], [1.0; 3], [2.0; 3]], [[0, 1, 2]]).unwrap(),
+        Mesh::new([[f32::NAN; 3], [1.0; 3], [f32::INFINITY; 3]], [[0, 1, 2]]).unwrap(),
+    ] {
+        let hierarchy = FastMesh::default().build(&mesh, &[]).unwrap();
+        let bytes = hierarchy.to_bytes();
+        let back = VertexHierarchy::from_bytes(&bytes, Limits::default()).unwrap();
+        assert!(back.to_bytes() == bytes);
+        let mut front = Front::new(back);
+        front.refine_fully();
+        let flat = front.hierarchy().flat_faces().len();
+        assert_eq!(front.face_count() + flat, mesh.face_count());
+    }
+}
+
+/// Bytes with the checksums that they should have: damage that no checksum finds.
+fn resealed(bytes: &mut [u8]) {
+    super::stored::reseal(bytes);
+}
+
+#[test]
+fn damage_is_an_error_or_some_mesh_and_never_a_panic() {
+    let cases = from_environment("MESHWEFT_CASES", 2000);
+    let mut random = SplitMix64(from_environment("MESHWEFT_SEED", 3));
+    let files: Vec<Vec<u8>> = examples()
+        .into_iter()
+        .map(|(_, mesh, attributes)| {
+            FastMesh::default()
+                .build(&mesh, &attributes)
+                .unwrap()
+                .to_bytes()
+        })
+        .collect();
+    let (mut errors, mut meshes) = (0, 0);
+    for case in 0..cases {
+        let mut bytes = files[random.below(files.len())].clone();
+        match random.below(6) {
+            0 => bytes.truncate(random.below(bytes.len() + 1)),
+            1 => bytes.extend([0; 3]),
+            _ => {
+                for _ in 0..1 + random.below(4) {
+                    let at = random.below(bytes.len());
+                    bytes[at] = u8::try_from(random.below(256)).unwrap();
+                }
+            }
+        }
+        if case % 2 == 0 {
+            resealed(&mut bytes);
+        }
+        let view = camera(&mut random, 25.0);
+        let walked =
+            StreamedFront::open(Cursor::new(&bytes), Limits::default()).and_then(|mut front| {
+                front.update(&view, 1.0)?;
+                front.update(&camera(&mut random, 25.0), 0.7)?;
+                let vertices = front.front().hierarchy().vertex_count();
+                let is_there = |face: [u32; 3]| face.iter().all(|&it| (it as usize) < vertices);
+                assert!(front.front().faces().all(|(_, face)| is_there(face)));
+                front.refine_fully()?;
+                Ok(())
+            });
+        match walked {
+            Ok(()) => meshes += 1,
+            Err(HierarchyError::Read(error)) => panic!("all was in memory: {error}"),
+            Err(HierarchyError::Decode(_)) => errors += 1,
+        }
+    }
+    assert!(
+        errors > cases / 4 && meshes > 0,
+        "{errors} errors, {meshes} meshes"
+    );
+}
