@@ -43,7 +43,7 @@ impl HalfEdges {
     /// directions and no other half-edge joins them: an edge of three faces, or of two that are wound against each other, is a border
     /// of each.
     ///
-    /// Time O(faces log faces), at most; space 36 bytes a face, and 12 more while it is made.
+    /// Time O(faces log faces), at most; space 24 bytes a face, and 12 more while it is made.
     pub(crate) fn new(faces: &[[u32; 3]], point_count: usize) -> Self {
         let corners = faces.as_flattened();
         let edge = |&start: &u32| HalfEdge { start, twin: NONE };

@@ -27,6 +27,9 @@ impl Default for FrameBudget {
     }
 }
 
+/// So many splits are passed in a frame at most, because they need more room than there can be.
+const MOST_PASSED: usize = 16;
+
 /// What the next step of an update is.
 enum FrontStep {
     Split(u32),
@@ -36,16 +39,15 @@ enum FrontStep {
 }
 
 impl Front {
-    /// Makes the mesh what a view asks for, as far as a budget allows; returns whether that is all that it allows, or whether the
+    /// Makes the mesh what a view asks for, as far as a budget allows. Returns what changed, and whether that is all: if not, the
     /// next frame has something to do even if the camera stays.
     ///
-    /// The errors that are seen most leave first. With few vertices these go where the errors are largest on the screen: the
-    /// largest one that is left is that of the next split, which does not fit, and no vertex with a smaller one is active
-    /// but those that others need. `hysteresis` is as for [`update`](Self::update); below 1, a vertex only makes room for another whose
+    /// The largest errors on the screen are removed first. Where vertices are few, those whose errors are seen less make room for a split,
+    /// if that can be enough for it; a split that cannot fit is passed, 16 in a frame at most. `hysteresis` is as for [`update`](Self::update); below 1, a vertex only makes room for another whose
     /// error is larger by that.
     ///
     /// # Complexity
-    /// Time O(n log n) for n vertices that are active, a hundred nanoseconds each or so.
+    /// Time O(n log n) for n vertices that are active.
     ///
     /// # Panics
     /// If `hysteresis` is not above 0 and at most 1.
@@ -76,19 +78,20 @@ impl Front {
 
         let mut left = budget.changes;
         let result = loop {
-            if left == 0 {
-                break Ok(false);
-            }
             let step = self.next_step(&mut queues, hysteresis, budget.vertices, loader);
             let changed = match step {
-                Ok(Some(FrontStep::Split(point))) => self.split(point, loader),
-                Ok(Some(FrontStep::Collapse(point))) => {
-                    self.collapse(point);
-                    Ok(())
-                }
                 Ok(Some(FrontStep::LookAgain(point))) => {
                     self.moved.push(point);
-                    left += 1;
+                    Ok(())
+                }
+                Ok(Some(_)) if left == 0 => break Ok(false),
+                Ok(Some(FrontStep::Split(point))) => {
+                    left -= 1;
+                    self.split(point, loader)
+                }
+                Ok(Some(FrontStep::Collapse(point))) => {
+                    left -= 1;
+                    self.collapse(point);
                     Ok(())
                 }
                 Ok(None) => break Ok(true),
@@ -97,10 +100,11 @@ impl Front {
             if let Err(error) = changed {
                 break Err(error);
             }
-            left -= 1;
             self.put_moved(view, &mut queues);
         };
 
+        queues.room_for = None;
+        queues.passed = 0;
         queues.splits.clear();
         queues.collapses.clear();
         self.queues = queues;
@@ -108,7 +112,7 @@ impl Front {
         result
     }
 
-    /// The most urgent split if there is room, or else the least urgent collapse.
+    /// The most urgent split if there is room, or can be, or else the least urgent collapse.
     fn next_step<L: BlockLoader>(
         &mut self,
         queues: &mut BudgetQueues,
@@ -116,50 +120,78 @@ impl Front {
         most_vertices: usize,
         loader: &mut L,
     ) -> Result<Option<FrontStep>, L::Error> {
-        // Points that were split with others, or left the list, are passed.
-        // Points that were split with others, or that others need by now, are passed.
-        while let Some(top) = queues.splits.peek()
-            && !self.is_waiting(top.point)
-        {
-            queues.splits.pop();
-        }
-        while let Some(Reverse(top)) = queues.collapses.peek()
-            && !self.can_collapse(top.point)
-        {
-            queues.collapses.pop();
-        }
-        let least = queues.collapses.peek().map(|it| it.0);
+        loop {
+            // Points that were split with others, or that others need by now, are passed.
+            while let Some(top) = queues.splits.peek()
+                && !self.is_waiting(top.point)
+            {
+                queues.splits.pop();
+            }
+            while let Some(Reverse(top)) = queues.collapses.peek()
+                && !self.can_collapse(top.point)
+            {
+                queues.collapses.pop();
+            }
+            let least = queues.collapses.peek().map(|it| it.0);
+            if self.vertex_count() > most_vertices {
+                return Ok(least.map(|it| FrontStep::Collapse(it.point)));
+            }
+            let most = queues.splits.peek().copied();
+            let Some(most) = most.filter(|_| queues.passed < MOST_PASSED) else {
+                let is_hidden = |it: &Queued| !it.urgency.is_above(hysteresis);
+                let hidden = least.filter(is_hidden);
+                return Ok(hidden.map(|it| FrontStep::Collapse(it.point)));
+            };
 
-        if self.vertex_count() > most_vertices {
-            return Ok(least.map(|it| FrontStep::Collapse(it.point)));
+            // What was not read before may be less urgent than it seemed to be.
+            let is_new = self.fetch(most.point, loader)?;
+            if is_new || *self.waiting_bound(most.point) != most.bound {
+                queues.splits.pop();
+                return Ok(Some(FrontStep::LookAgain(most.point)));
+            }
+
+            let room = most_vertices - self.vertex_count();
+            let added = self.count_needed(most.point, most_vertices, loader)?;
+            if added <= room {
+                return Ok(Some(FrontStep::Split(most.point)));
+            }
+            let makes_room = |it: &Queued| it.urgency.is_below(most.urgency, hysteresis);
+            if queues.room_for != Some(most.point) {
+                // With all that stays: the roots, and what is as urgent. A point may be in the queue twice.
+                let stays = queues
+                    .collapses
+                    .iter()
+                    .filter(|Reverse(it)| !makes_room(it));
+                let mut staying = 0;
+                for Reverse(it) in stays {
+                    let is_active = self.is_leaving_active(it.point);
+                    staying += usize::from(is_active && self.looked_at.touch(it.point, true));
+                }
+                self.looked_at.drain(|_, _| {});
+                if self.hierarchy.roots as usize + staying + added > most_vertices {
+                    queues.splits.pop();
+                    queues.passed += 1;
+                    continue;
+                }
+                queues.room_for = Some(most.point);
+            }
+            match least.filter(makes_room) {
+                Some(least) => return Ok(Some(FrontStep::Collapse(least.point))),
+                None => {
+                    queues.splits.pop();
+                    queues.passed += 1;
+                }
+            }
         }
-        let Some(&most) = queues.splits.peek() else {
-            let is_hidden = |it: &Queued| !it.urgency.is_above(hysteresis);
-            let hidden = least.filter(is_hidden);
-            return Ok(hidden.map(|it| FrontStep::Collapse(it.point)));
-        };
-        let is_known =
-            !self.fetch(most.point, loader)? && *self.waiting_bound(most.point) == most.bound;
-        if !is_known {
-            queues.splits.pop();
-            return Ok(Some(FrontStep::LookAgain(most.point)));
-        }
-        let room = most_vertices - self.vertex_count();
-        if self.needs_at_most(most.point, room, loader)? {
-            return Ok(Some(FrontStep::Split(most.point)));
-        }
-        let makes_room = |it: &Queued| it.urgency.is_below(most.urgency, hysteresis);
-        let less = least.filter(makes_room);
-        Ok(less.map(|it| FrontStep::Collapse(it.point)))
     }
 
-    /// Whether a split adds at most this number of vertices, with those of the points that it needs.
-    fn needs_at_most<L: BlockLoader>(
+    /// How many vertices a split adds, with those of the points that it needs; one more than a number if that is above it.
+    fn count_needed<L: BlockLoader>(
         &mut self,
         point: u32,
-        room: usize,
+        most: usize,
         loader: &mut L,
-    ) -> Result<bool, L::Error> {
+    ) -> Result<usize, L::Error> {
         let mut count = 0;
         let mut result = Ok(());
         self.to_split.push(point);
@@ -169,14 +201,14 @@ impl Front {
             }
             count += self.hierarchy.vertices_of(point).count();
             result = self.fetch(point, loader).map(|_| ());
-            if count > room || result.is_err() {
+            if count > most || result.is_err() {
                 self.to_split.clear();
             } else {
                 self.to_split.extend(self.hierarchy.needed_by(point));
             }
         }
         self.looked_at.drain(|_, _| {});
-        result.map(|()| count <= room)
+        result.map(|()| count.min(most.saturating_add(1)))
     }
 
     /// Points that are new in their lists, and those that no other needs any more, go into the queues.

@@ -5,6 +5,7 @@ use super::numbering;
 use super::replay::Replay;
 use crate::attribute::Attribute;
 use crate::error::MeshError;
+use crate::index::MAX_FACES;
 use crate::mesh::Mesh;
 use crate::progressive::{AttributeWeights, Collapses};
 
@@ -69,6 +70,14 @@ impl FastMesh {
             ..Collapses::default()
         };
         let (removals, point_of) = collapses.build_balanced(mesh, attributes)?;
+        let slots = mesh.face_count() + removals.last_level();
+        if slots > MAX_FACES {
+            return Err(MeshError::TooLarge {
+                what: "faces and places for them",
+                limit: MAX_FACES,
+                count: slots,
+            });
+        }
         let mut replay = Replay::new(mesh.positions(), &removals, point_of);
         for level in 0..removals.last_level() {
             replay.collapse(removals.collapse(level));

@@ -89,6 +89,21 @@ impl PackedCone {
         Some((unfolded(self.0 >> 10), [(1.0 - sine * sine).sqrt(), sine]))
     }
 
+    /// Whether another cone is in this one.
+    #[cfg(test)]
+    pub(super) fn contains(self, other: Self) -> bool {
+        let Some((axis, [cosine, _])) = self.parts() else {
+            return true;
+        };
+        other
+            .parts()
+            .is_some_and(|(inner, [inner_cosine, inner_sine])| {
+                let between = dot(axis, inner);
+                let across = (1.0 - between * between).max(0.0).sqrt();
+                between * inner_cosine - across * inner_sine >= cosine - 1e-9
+            })
+    }
+
     /// The cone's numbers, for many tests.
     pub(super) fn unpacked(self) -> Cone {
         let all = Cone {

@@ -47,7 +47,7 @@ impl Front {
     /// The coarsest mesh: only roots are active.
     ///
     /// # Complexity
-    /// Time O(roots), space 8 bytes a vertex, 48 for each that is active, and 48 for each just below.
+    /// Time O(vertices), space 4 bytes a vertex and 3 bits, 48 bytes for each that is active, and 48 for each just below.
     #[must_use]
     pub fn new(hierarchy: VertexHierarchy) -> Self {
         let points = hierarchy.nodes.len();
@@ -108,6 +108,9 @@ impl Front {
     /// The three vertices of a face, counterclockwise as seen from outside; `None` if it is not there.
     #[must_use]
     pub fn face(&self, face: u32) -> Option<[u32; 3]> {
+        if face as usize >= self.hierarchy.face_slot_count() {
+            return None;
+        }
         let point = self.hierarchy.point_of_face(face);
         let is_there = point.is_none_or(|point| self.is_active(point));
         let corners = self.hierarchy.edges.face(face);
@@ -261,6 +264,11 @@ impl Front {
             && self.hierarchy.needs[point as usize] < ONE_NEED
     }
 
+    /// Whether a point may leave and is active.
+    pub(super) fn is_leaving_active(&self, point: u32) -> bool {
+        self.places[point as usize] < WAITING
+    }
+
     /// Makes a point active, and before it those that it needs.
     pub(super) fn split<L: BlockLoader>(
         &mut self,
@@ -343,12 +351,34 @@ impl Front {
                 self.waiting.take(below, &mut self.places, WAITING);
             }
         }
-        self.wait(point, point);
+        if self.is_above_active(point) {
+            self.wait(point, point);
+        }
     }
 
     pub(super) fn is_waiting(&self, point: u32) -> bool {
         let place = self.places[point as usize];
         place != NONE && place >= WAITING
+    }
+
+    /// Whether the point just above one is active, or it is not known which that is: it was not read yet.
+    fn is_above_active(&self, point: u32) -> bool {
+        // Siblings are as many as the forest is deep at most.
+        let nodes = &self.hierarchy.nodes;
+        let parent = nodes[point as usize].parent;
+        let mut above = parent;
+        let mut at = nodes[parent as usize].first_child;
+        for _ in 0..nodes.len() {
+            if at == point {
+                return self.is_active(above);
+            }
+            if at == NONE {
+                break;
+            }
+            above = at;
+            at = nodes[at as usize].next_sibling;
+        }
+        true
     }
 
     /// A point just below another is to be tested, unless it is active or is tested already.

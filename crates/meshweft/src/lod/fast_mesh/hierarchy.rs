@@ -9,9 +9,9 @@ use crate::topology::half_edges::{HalfEdges, NONE};
 
 /// All resolutions of a mesh, for a [`Front`](super::Front): made by [`FastMesh::build`](super::FastMesh::build).
 ///
-/// A *point* is a place of the mesh; at seams it has several vertices. Points are numbered from coarse to fine: first the roots, which
-/// never leave, then those that may, each with one or two faces. The first vertex of a point has its number, others come
-/// after all points. 88 bytes a vertex, and 8 more in a front.
+/// A *point* is a place of the mesh; at seams it has several vertices. Points are numbered from coarse to fine by octaves of
+/// their errors: first the roots, which never leave, then those that may, each with one or two faces. The first vertex of a point has its number, others come
+/// after all points. 92 bytes a vertex, and 4 more in a front.
 #[derive(Debug, Clone)]
 pub struct VertexHierarchy {
     /// One entry a point.
@@ -101,12 +101,18 @@ impl VertexHierarchy {
         self.cut_points
     }
 
-    /// The error of a vertex: how far the surface is from the input where it has left, in units of the positions; infinite for
-    /// roots and for those that are not the first at their point. The coarser the detail, the larger.
+    /// The error of a vertex: how far the surface is from the input's vertices where its point has left, in units of the positions;
+    /// infinite for roots. The coarser the detail, the larger. Attributes do not count.
+    ///
+    /// # Panics
+    /// If there is no such vertex.
     #[must_use]
     pub fn error(&self, vertex: u32) -> f32 {
-        let node = self.nodes.get(vertex as usize);
-        node.map_or(f32::INFINITY, |node| node.error)
+        let point = match (vertex as usize).checked_sub(self.nodes.len()) {
+            None => vertex,
+            Some(place) => self.side_points[place],
+        };
+        self.nodes[point as usize].error
     }
 
     /// How many collapses are one after the other at most.

@@ -13,11 +13,13 @@
 //! - **When a vertex can be split.** Its parent is active, and so are the faces around the two that return. That is known from the
 //!   coarsest mesh alone, as faces that left keep their links: no topology is tested at run time. A vertex can be collapsed as
 //!   long as no active vertex needs it.
-//! - **Numbers.** A vertex that can leave has the same number as its two faces, but for a factor of two: a list of the active vertices is a
-//!   list of the active faces. Vertices are numbered from coarse to fine, near ones together.
+//! - **Numbers.** The *n*-th point that can leave has the faces 2*n* and 2*n* + 1 of those that can leave: a list of the active points is a
+//!   list of the active faces. Points are numbered from coarse to fine by octaves of their errors, near ones together.
 //! - **Bounds.** Errors, balls and cones contain those below, along the collapses into one vertex too: what fails is always at the top
 //!   of the forest, so only the vertices of the front and those just below it are tested.
 //! - **Seams.** A point's vertices go together, each to its partner. Points where the surface is not a manifold stay.
+//!
+//! A `.mwl` file has it in blocks (`stored`), and a [`StreamedFront`] reads those that a view needs.
 //!
 //! Read `links` first, one collapse and its split; then `replay`, how each comes about, and `front`.
 

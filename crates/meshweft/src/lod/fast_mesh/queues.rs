@@ -30,9 +30,12 @@ impl PartialOrd for Queued {
 
 impl Ord for Queued {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Among equals coarse points come first: they have low numbers.
+        // Among equals coarse points come first: their balls contain those below.
         let by_urgency = self.urgency.order(other.urgency);
-        by_urgency.then(other.point.cmp(&self.point))
+        let by_radius = self.bound.radius.total_cmp(&other.bound.radius);
+        by_urgency
+            .then(by_radius)
+            .then(other.point.cmp(&self.point))
     }
 }
 
@@ -41,4 +44,8 @@ impl Ord for Queued {
 pub(super) struct BudgetQueues {
     pub(super) splits: BinaryHeap<Queued>,
     pub(super) collapses: BinaryHeap<Reverse<Queued>>,
+    /// The split for which collapses make room.
+    pub(super) room_for: Option<u32>,
+    /// How many splits were passed because they need too much room.
+    pub(super) passed: usize,
 }

@@ -42,24 +42,29 @@ fn check_surface(front: &Front) {
     let vertices: BTreeSet<u32> = front.vertices().collect();
     assert_eq!(there.len(), front.face_count());
     assert_eq!(vertices.len(), front.vertex_count());
+    let point = |vertex: u32| {
+        let sides = vertex.checked_sub(index32(hierarchy.nodes.len()));
+        sides.map_or(vertex, |place| hierarchy.side_points[place as usize])
+    };
     let mut directed = BTreeSet::new();
-    let source = |vertex: u32| hierarchy.source_vertices()[vertex as usize];
     for (&face, corners) in &there {
         assert!(
             corners.iter().all(|vertex| vertices.contains(vertex)),
             "{corners:?}"
         );
         for half_edge in 3 * face..3 * face + 3 {
+            let ends = [half_edge, next(half_edge)].map(|it| point(edges.start(it)));
+            assert_ne!(ends[0], ends[1]);
+            let is_new = directed.insert(ends);
+            assert!(is_new || hierarchy.cut_points() > 0, "{ends:?} twice");
             let twin = edges.twin(half_edge);
             if twin == NONE {
                 continue;
             }
             assert!(there.contains_key(&(twin / 3)), "a twin that is not there");
             assert_eq!(edges.twin(twin), half_edge);
-            directed.insert((half_edge, twin));
-        }
-        for slot in 0..3 {
-            assert_ne!(source(corners[slot]), source(corners[(slot + 1) % 3]));
+            let across = [next(twin), twin].map(|it| point(edges.start(it)));
+            assert_eq!(ends, across, "the same edge");
         }
     }
 }
@@ -264,6 +269,8 @@ fn a_front_follows_from_the_view_alone() {
 
             let mut jumped = Front::new(hierarchy.clone());
             jumped.update(&view, 1.0);
+            let waiting = |front: &Front| front.waiting.points().collect::<BTreeSet<u32>>();
+            assert!(waiting(&jumped) == waiting(&walked), "{name} {case}");
             assert!(faces(&jumped) == faces(&walked), "{name} {case}");
         }
         assert!(index32(sizes.len()) as u64 > cases / 4, "{name}: {sizes:?}");
@@ -333,6 +340,8 @@ fn errors_balls_and_cones_contain_those_below() {
                     f64::from(outer.radius) >= distance + f64::from(inner.radius),
                     "{name}"
                 );
+                let [outer, inner] = [point, below].map(|it| hierarchy.nodes[it as usize].cone);
+                assert!(outer.contains(inner), "{name}");
             }
         }
     }
