@@ -35,7 +35,10 @@ const ROOMS: [(&str, &[&[&str]]); 24] = [
     ),
     ("culling", &[GROUND, VALUES, ALGORITHMS, &["order"]]),
     // Its hierarchies are made of removals.
-    ("lod", &[GROUND, VALUES, &["topology", "progressive"]]),
+    (
+        "lod",
+        &[GROUND, VALUES, &["bits", "topology", "progressive"]],
+    ),
     // Readers and writers know no algorithm, and no algorithm knows them.
     ("files", &[GROUND, VALUES]),
     // The only place that joins both.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | magic `MWLD`, version 1 | 5 |
 //! | length of the head, CRC-32 of the head | 4 + 4, little-endian |
-//! | head: numbers, see [`Counts`], then for each block its length, its CRC-32 and the largest error in it | |
+//! | head: numbers, see [`StoredCounts`], then for each block its length, its CRC-32 and the largest error in it | |
 //! | block 0: the roots and the faces that never leave | |
 //! | blocks 1, 2 …: 256 points each, from coarse to fine | |
 //!
@@ -31,7 +31,7 @@ const LEAST_BYTES: u64 = 28;
 
 /// What a file has in all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Counts {
+pub(super) struct StoredCounts {
     pub(super) points: u32,
     pub(super) roots: u32,
     pub(super) root_faces: u32,
@@ -53,7 +53,7 @@ pub(super) struct BlockEntry {
 /// What stands before the blocks.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Head {
-    pub(super) counts: Counts,
+    pub(super) counts: StoredCounts,
     /// That of the roots, then those of the other points.
     pub(super) blocks: Vec<BlockEntry>,
 }
@@ -179,12 +179,12 @@ fn put_f32s<const N: usize>(bytes: &mut Vec<u8>, numbers: [f32; N]) {
 }
 
 /// Bytes that are read from the front; `at` is where they were in the file.
-struct Reader<'a> {
+struct FieldReader<'a> {
     rest: &'a [u8],
     end: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> FieldReader<'a> {
     fn new(bytes: &'a [u8], at: usize) -> Self {
         Self {
             rest: bytes,
@@ -250,7 +250,7 @@ impl<'a> Reader<'a> {
 impl Head {
     /// How long the head is, by the bytes before it, and its checksum.
     pub(super) fn length(front: &[u8; FRONT_BYTES]) -> Result<(usize, u32), DecodeError> {
-        let mut reader = Reader::new(front, 0);
+        let mut reader = FieldReader::new(front, 0);
         if reader.bytes()? != MAGIC {
             let kind = DecodeErrorKind::NoHierarchy;
             return Err(DecodeError { byte: 0, kind });
@@ -277,7 +277,7 @@ impl Head {
         if crc32(bytes) != checksum {
             return Err(DecodeError::damaged(FRONT_BYTES));
         }
-        let mut reader = Reader::new(bytes, FRONT_BYTES);
+        let mut reader = FieldReader::new(bytes, FRONT_BYTES);
         let most = u32::try_from(limits.vertices)
             .unwrap_or(u32::MAX)
             .min(MOST_POINTS);
@@ -293,7 +293,7 @@ impl Head {
             }
         };
         let points = count("points", most)?;
-        let counts = Counts {
+        let counts = StoredCounts {
             points,
             roots: count("roots", points)?,
             root_faces: count("faces", MOST_POINTS)?,
@@ -339,7 +339,7 @@ const MOST_POINTS: u32 = 1 << 28;
 impl Head {
     /// The hierarchy without the points that may leave: they are read when they are needed. `bytes` are those of block 0.
     pub(super) fn hierarchy(&self, bytes: &[u8]) -> Result<VertexHierarchy, DecodeError> {
-        let Counts {
+        let StoredCounts {
             points,
             roots,
             root_faces,
@@ -352,7 +352,7 @@ impl Head {
             return Err(DecodeError::damaged(at));
         }
 
-        let mut reader = Reader::new(bytes, at);
+        let mut reader = FieldReader::new(bytes, at);
         let leaving = points - roots;
         let faces = root_faces + 2 * leaving;
         let mut nodes = Vec::new();
@@ -422,7 +422,7 @@ impl Head {
         if crc32(bytes) != entry.checksum {
             return Err(DecodeError::damaged(at));
         }
-        let Counts {
+        let StoredCounts {
             points,
             roots,
             vertices,
@@ -432,7 +432,7 @@ impl Head {
         let first = roots + index32(block) * BLOCK_POINTS;
         let there = first..(first + BLOCK_POINTS).min(points);
 
-        let mut reader = Reader::new(bytes, at);
+        let mut reader = FieldReader::new(bytes, at);
         for point in there.clone() {
             let parent = reader.difference(point, 0..points)?;
             let first_child = reader.difference(point, roots..points)?;
@@ -492,7 +492,7 @@ pub(super) fn reseal(bytes: &mut [u8]) {
     let Some((head, mut blocks)) = rest.split_at_mut_checked(length) else {
         return;
     };
-    let mut reader = Reader::new(head, 0);
+    let mut reader = FieldReader::new(head, 0);
     let mut places = Vec::new();
     for _ in 0..6 {
         if reader.number().is_err() {
