@@ -18,7 +18,7 @@ const MOST_BESIDE: usize = 12;
 /// Merging never takes back what it did; this does, face by face. `faces` are those that the clusters have by place, with a mask each.
 ///
 /// # Complexity
-/// Time O(faces · eyes); space 20 bytes a face and 4 bytes an eye and cluster.
+/// Time O(faces · eyes); space 20 bytes a face, 100 a cluster, and 4 bytes an eye and cluster of more than one face.
 pub(super) fn improve<const WORDS: usize>(
     faces: Faces<'_>,
     masks: &[Mask<WORDS>],
@@ -77,7 +77,8 @@ struct Tally<const WORDS: usize> {
     mask: Mask<WORDS>,
     /// Eyes that see just one face of it.
     once: Mask<WORDS>,
-    counts: Box<[[u32; 64]; WORDS]>,
+    /// How many see it by each eye; none for a single face, as in soups most clusters are.
+    counts: Option<Box<[[u32; 64]; WORDS]>>,
     vertices: u32,
     faces: u32,
 }
@@ -87,7 +88,7 @@ impl<const WORDS: usize> Tally<WORDS> {
         Self {
             mask: [0; WORDS],
             once: [0; WORDS],
-            counts: Box::new([[0; 64]; WORDS]),
+            counts: None,
             vertices: 0,
             faces: 0,
         }
@@ -95,9 +96,21 @@ impl<const WORDS: usize> Tally<WORDS> {
 
     fn add(&mut self, mask: &Mask<WORDS>) {
         self.faces += 1;
+        if self.faces == 1 && self.counts.is_none() {
+            (self.mask, self.once) = (*mask, *mask);
+            return;
+        }
+        let alone = self.once;
+        let counts = self.counts.get_or_insert_with(|| {
+            let mut counts = Box::new([[0; 64]; WORDS]);
+            for (counts, bits) in counts.iter_mut().zip(alone) {
+                ones(bits).for_each(|bit| counts[bit] = 1);
+            }
+            counts
+        });
         for (word, &bits) in mask.iter().enumerate() {
             for bit in ones(bits) {
-                let count = &mut self.counts[word][bit];
+                let count = &mut counts[word][bit];
                 *count += 1;
                 let flag = 1 << bit;
                 match *count {
@@ -114,9 +127,13 @@ impl<const WORDS: usize> Tally<WORDS> {
 
     fn remove(&mut self, mask: &Mask<WORDS>) {
         self.faces -= 1;
+        let Some(counts) = &mut self.counts else {
+            (self.mask, self.once) = ([0; WORDS], [0; WORDS]);
+            return;
+        };
         for (word, &bits) in mask.iter().enumerate() {
             for bit in ones(bits) {
-                let count = &mut self.counts[word][bit];
+                let count = &mut counts[word][bit];
                 *count -= 1;
                 let flag = 1 << bit;
                 match *count {

@@ -38,7 +38,7 @@ pub enum GeometryCacheError {
 
 impl GeometryCacheError {
     /// The largest number of slots.
-    pub(super) const MOST_SLOTS: usize = 1 << 30;
+    pub(crate) const MOST_SLOTS: usize = 1 << 30;
 
     /// Refuses a list with a vertex that is not below the count.
     pub(super) fn check(

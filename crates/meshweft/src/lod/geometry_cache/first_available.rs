@@ -10,8 +10,6 @@ pub(super) struct FirstAvailable {
     available: SlotBits,
     /// Slots that are open since this frame.
     fresh: SlotBits,
-    /// Slots opened in the frame, some of which may be closed again.
-    opened: Vec<u32>,
     frame: u32,
 }
 
@@ -20,7 +18,6 @@ impl FirstAvailable {
         Self {
             available: SlotBits::new(slots),
             fresh: SlotBits::new(slots),
-            opened: Vec::with_capacity(slots),
             frame: 0,
         }
     }
@@ -31,10 +28,8 @@ impl FirstAvailable {
             return;
         }
         self.frame = frame;
-        for slot in self.opened.drain(..) {
-            if self.fresh.remove(slot) {
-                self.available.insert(slot);
-            }
+        while let Some(slot) = self.fresh.take_first() {
+            self.available.insert(slot);
         }
     }
 }
@@ -44,10 +39,7 @@ impl SlotPolicy for FirstAvailable {
         self.go_on(frame);
         match error {
             None => self.available.insert(slot),
-            Some(_) => {
-                self.fresh.insert(slot);
-                self.opened.push(slot);
-            }
+            Some(_) => self.fresh.insert(slot),
         }
     }
 

@@ -169,6 +169,17 @@ impl GeometryCache {
                 self.added.push(vertex);
             }
         }
+
+        // What was removed and added again stayed.
+        let front = &self.front;
+        let stayed = self.removed.iter().copied();
+        let mut stayed: Vec<u32> = stayed.filter(|&it| front.place(it).is_some()).collect();
+        if !stayed.is_empty() {
+            stayed.sort_unstable();
+            let has_changed = |vertex: &u32| stayed.binary_search(vertex).is_err();
+            self.added.retain(has_changed);
+            self.removed.retain(has_changed);
+        }
         Ok(self.finish_frame())
     }
 
@@ -346,6 +357,7 @@ impl GeometryCache {
             _ => self.end_pass(),
         }
         self.release_front();
+        self.upload.restart(FrameMode::Passes);
         self.table.frame % 2 == 1
     }
 

@@ -101,7 +101,7 @@ impl LodWalkOptions {
             let allowed = "a part of the tolerance, above 0 and at most 1".to_owned();
             return error("hysteresis", self.hysteresis.to_string(), allowed);
         }
-        let most = 1 << 30;
+        let most = GeometryCacheError::MOST_SLOTS;
         if !is_count(self.slots, 3, most) {
             let allowed = format!("3, which a face needs, to {most}");
             return error("slots", self.slots.to_string(), allowed);

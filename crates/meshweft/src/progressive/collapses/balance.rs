@@ -1,6 +1,6 @@
 //! Collapses for a vertex hierarchy: shallow, and such that each can be undone alone.
 
-use super::fan::{Fan, Move};
+use super::fan::{Fan, MOST_FACES, Move};
 use super::remaining::{FanFace, NONE, RemainingMesh};
 use crate::progressive::records::SidePair;
 
@@ -27,7 +27,8 @@ impl HierarchyBalance {
     pub(super) fn cost(&self, point: u32, found: &Move, mean_area: f64) -> f64 {
         let height = self.height(point, found.to);
         let least = LEAST_PART * mean_area * mean_area;
-        let factor = DEPTH_FACTOR.powi(i32::try_from(height).unwrap_or(i32::MAX));
+        // Without an end the factor would be infinite, and nothing cheap any more.
+        let factor = DEPTH_FACTOR.powi(i32::try_from(height).unwrap_or(i32::MAX).min(500));
         (found.cost + least) * factor
     }
 
@@ -95,19 +96,20 @@ fn vertices_are_around(
     }
 
     // Beyond the edge between the tip and the neighbour, if the surface is a manifold there.
-    let (mut beyond, mut count) = ([NONE; 2], 0);
-    rest.visit(to, |other| {
+    let (mut beyond, mut count, mut seen) = ([NONE; 2], 0, 0);
+    let is_small = rest.visit(to, |other| {
+        seen += 1;
         if other.face() != face.face()
             && let Some(corner) = other.corner_at(tip)
         {
             beyond = [other.corner, corner];
             count += 1;
         }
-        true
+        seen <= MOST_FACES
     });
     // Wound the other way: the tip comes after the neighbour in one of the two faces, and before it in the other.
     let comes_after = |[at, tip]: [u32; 2]| tip == at - at % 3 + (at + 1) % 3;
-    if count == 1 && comes_after(beyond) != comes_after([at_to, at_tip]) {
+    if is_small && count == 1 && comes_after(beyond) != comes_after([at_to, at_tip]) {
         let [to_side, tip_side] = beyond.map(|corner| rest.side(corner));
         is_same_to |= to_side == side_to;
         is_same_tip |= tip_side == side_tip;
