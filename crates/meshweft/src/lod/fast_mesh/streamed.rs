@@ -83,7 +83,8 @@ impl<S: Read + Seek> BlockFile<S> {
             .min(FRONT_BYTES);
         source.read_exact(&mut front[..in_file])?;
         let (head_length, checksum) = Head::length(&front)?;
-        if (FRONT_BYTES + head_length) as u64 > length {
+        let before_blocks = FRONT_BYTES as u64 + head_length as u64;
+        if before_blocks > length {
             return Err(DecodeError::ends_early(in_file).into());
         }
         let mut buffer = vec![0; head_length];
@@ -94,7 +95,7 @@ impl<S: Read + Seek> BlockFile<S> {
             head,
             buffer,
             length,
-            bytes_read: (FRONT_BYTES + head_length) as u64,
+            bytes_read: before_blocks,
         })
     }
 
