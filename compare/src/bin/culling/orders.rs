@@ -105,7 +105,7 @@ pub(crate) fn whole(mesh: &Mesh) -> Vec<Order> {
     ]
 }
 
-/// The library's orders that leave faces out; the last one with at most so many draws, if numbers are given for all views.
+/// The library's orders that leave faces out; the last one with at most these numbers of draws, view by view, if they are given.
 pub(crate) fn ours(mesh: &Mesh, most_draws: Option<Vec<usize>>) -> Vec<Order> {
     let mut orders = Vec::new();
 

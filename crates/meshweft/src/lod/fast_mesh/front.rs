@@ -7,6 +7,7 @@ use super::missing::BLOCK_POINTS;
 use super::queues::BudgetQueues;
 use super::tested::TestedPoints;
 use super::view::{CameraView, DetailBound};
+use crate::index::index32;
 use crate::topology::half_edges::NONE;
 
 /// A mesh as coarse as a view allows, which follows the view from frame to frame.
@@ -39,7 +40,7 @@ pub struct Front {
 }
 
 /// Places of points that wait have this bit.
-pub(super) const WAITING: u32 = 1 << 31;
+const WAITING: u32 = 1 << 31;
 /// In the numbers of points that need one, above the four bits of the flags.
 const ONE_NEED: u32 = 1 << 4;
 
@@ -53,8 +54,8 @@ impl Front {
         let points = hierarchy.nodes.len();
         let mut front = Self {
             places: vec![NONE; points],
-            active: TestedPoints::default(),
-            waiting: TestedPoints::default(),
+            active: TestedPoints::new(0),
+            waiting: TestedPoints::new(WAITING),
             face_count: hierarchy.root_faces as usize,
             vertex_count: 0,
             touched_points: Touched::new(points),
@@ -102,7 +103,7 @@ impl Front {
     /// Whether a point is active.
     #[inline]
     pub(super) fn is_active(&self, point: u32) -> bool {
-        !self.hierarchy.may_leave(point) || self.places[point as usize] < WAITING
+        !self.hierarchy.may_leave(point) || self.is_leaving_active(point)
     }
 
     /// The three vertices of a face, counterclockwise as seen from outside; `None` if it is not there.
@@ -222,16 +223,14 @@ impl Front {
         }
         let block = missing.block_of(point);
         loader.load(block, &mut self.hierarchy)?;
-        self.hierarchy.missing.read(block);
 
         // The tests know more of those that wait.
         let points = self.hierarchy.leaving_points();
-        let first = points.start + crate::index::index32(block) * BLOCK_POINTS;
+        let first = points.start + index32(block) * BLOCK_POINTS;
         for point in first..first.saturating_add(BLOCK_POINTS).min(points.end) {
             if self.is_waiting(point) {
                 let bound = self.hierarchy.bound(point);
-                let place = self.places[point as usize] - WAITING;
-                self.waiting.set_bound(place, bound);
+                self.waiting.set_bound(self.places[point as usize], bound);
             }
         }
         Ok(true)
@@ -239,7 +238,7 @@ impl Front {
 
     /// What the test needs of a point that waits.
     pub(super) fn waiting_bound(&self, point: u32) -> &DetailBound {
-        self.waiting.bound(self.places[point as usize] - WAITING)
+        self.waiting.bound(self.places[point as usize])
     }
 
     fn coarsen(&mut self, view: &CameraView) {
@@ -259,9 +258,7 @@ impl Front {
 
     /// Whether a point is active and no other needs it.
     pub(super) fn can_collapse(&self, point: u32) -> bool {
-        self.hierarchy.may_leave(point)
-            && self.places[point as usize] < WAITING
-            && self.hierarchy.needs[point as usize] < ONE_NEED
+        self.is_leaving_active(point) && self.hierarchy.needs[point as usize] < ONE_NEED
     }
 
     /// Whether a point may leave and is active.
@@ -304,10 +301,10 @@ impl Front {
     /// Makes a point active whose needed ones are.
     fn split_one(&mut self, point: u32) {
         if self.places[point as usize] != NONE {
-            self.waiting.take(point, &mut self.places, WAITING);
+            self.waiting.take(point, &mut self.places);
         }
         let bound = self.hierarchy.bound(point);
-        self.active.add(point, bound, &mut self.places, 0);
+        self.active.add(point, bound, &mut self.places);
         self.moved.push(point);
         self.touched_points.touch(point, false);
         self.count_needs(point, true);
@@ -342,13 +339,13 @@ impl Front {
             touched.touch(half_edge / 3, true);
         });
 
-        self.active.take(point, &mut self.places, 0);
+        self.active.take(point, &mut self.places);
         self.touched_points.touch(point, true);
         self.count_needs(point, false);
         let node = self.hierarchy.nodes[point as usize];
         for below in [node.first_child, node.next_sibling] {
             if below != NONE && self.is_waiting(below) {
-                self.waiting.take(below, &mut self.places, WAITING);
+                self.waiting.take(below, &mut self.places);
             }
         }
         if self.is_above_active(point) {
@@ -388,7 +385,7 @@ impl Front {
                 None => self.hierarchy.bound(point),
                 Some(error) => self.hierarchy.bound_below(above, error),
             };
-            self.waiting.add(point, bound, &mut self.places, WAITING);
+            self.waiting.add(point, bound, &mut self.places);
             self.moved.push(point);
         }
     }

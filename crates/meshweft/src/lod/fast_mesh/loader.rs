@@ -9,7 +9,7 @@ pub(super) trait BlockLoader {
     /// Why a block could not be read.
     type Error;
 
-    /// Puts a block into the hierarchy.
+    /// Puts a block into the hierarchy, which is not missing there any more.
     fn load(&mut self, block: usize, hierarchy: &mut VertexHierarchy) -> Result<(), Self::Error>;
 }
 

@@ -29,7 +29,7 @@ type Members<'a> = BTreeMap<String, &'a RawValue>;
 /// are refused, so that none is left out by its spelling.
 ///
 /// # Errors
-/// [`FileError`] with the place as a JSON pointer: what is no camera, or no frames, or more than [`MOST_FRAMES`].
+/// [`FileError`] with the place as a JSON pointer: what is not a camera, a list without frames, or one of more than [`MOST_FRAMES`].
 ///
 /// # Complexity
 /// Time O(bytes), space 128 bytes a frame.

@@ -1,4 +1,4 @@
-//! What is asked for, and why there is no walk.
+//! What is asked for, and why a mesh cannot be walked around.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -133,7 +133,7 @@ impl fmt::Display for WalkOptionError {
 
 impl std::error::Error for WalkOptionError {}
 
-/// Why there is no walk.
+/// Why a mesh cannot be walked around.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum LodWalkError {

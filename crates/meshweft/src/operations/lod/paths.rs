@@ -62,7 +62,7 @@ impl CameraPath {
     /// The camera of a frame, around a ball, with a picture of this width and height.
     ///
     /// # Panics
-    /// If cameras are given, and not so many.
+    /// If cameras are given and `frame` is not below their number.
     #[must_use]
     pub fn camera(&self, ball: Ball, frame: usize, frames: usize, size: [u32; 2]) -> Camera {
         let part = frame as f64 / frames.max(1) as f64;
