@@ -76,7 +76,7 @@ pub use inspect::{InspectReport, inspect};
 pub use json::SCHEMA;
 #[cfg(feature = "files")]
 pub use lod::{
-    CameraPath, Eviction, LodWalkError, LodWalkOptions, LodWalkReport, MOST_FRAMES, WalkFrame,
+    CameraPath, Eviction, LodError, LodWalkOptions, LodWalkReport, MOST_FRAMES, WalkFrame,
     WalkOptimum, WalkOptionError, WalkQuantity, WalkSummary, WalkedMesh, cameras_from_json,
     lod_walk,
 };

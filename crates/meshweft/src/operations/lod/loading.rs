@@ -1,6 +1,6 @@
 //! A document as one mesh with all its levels of detail.
 
-use super::options::LodWalkError;
+use super::options::LodError;
 use crate::files::Document;
 use crate::geometry::Ball;
 use crate::geometry::double::widened;
@@ -19,11 +19,11 @@ pub(super) struct Loaded {
 }
 
 /// Joins the meshes of a document, and makes the hierarchy of all. Positions and faces count, as the file stores them.
-pub(super) fn load(document: &Document) -> Result<Loaded, LodWalkError> {
+pub(super) fn load(document: &Document) -> Result<Loaded, LodError> {
     let file = || document.path().to_owned();
     let mesh = joined(document)?;
     let hierarchy = FastMesh::default().build(&mesh, &[]);
-    let hierarchy = hierarchy.map_err(|error| LodWalkError::Mesh {
+    let hierarchy = hierarchy.map_err(|error| LodError::Mesh {
         file: file(),
         error,
     })?;
@@ -37,12 +37,12 @@ pub(super) fn load(document: &Document) -> Result<Loaded, LodWalkError> {
             ball,
             face_count,
         }),
-        _ => Err(LodWalkError::NoFaces { file: file() }),
+        _ => Err(LodError::NoFaces { file: file() }),
     }
 }
 
 /// All meshes as one, the vertices of each after those of the one before.
-fn joined(document: &Document) -> Result<Mesh, LodWalkError> {
+fn joined(document: &Document) -> Result<Mesh, LodError> {
     let file = || document.path().to_owned();
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     for (name, mesh) in plain_meshes(document)? {
@@ -50,7 +50,7 @@ fn joined(document: &Document) -> Result<Mesh, LodWalkError> {
             continue;
         }
         if mesh.positions().len() != mesh.vertex_count() {
-            return Err(LodWalkError::NoPositions {
+            return Err(LodError::NoPositions {
                 file: file(),
                 mesh: name,
             });
@@ -61,7 +61,7 @@ fn joined(document: &Document) -> Result<Mesh, LodWalkError> {
         };
         let mut corners = mesh.faces().as_flattened().iter();
         if !corners.all(is_finite) {
-            return Err(LodWalkError::NotFinite {
+            return Err(LodError::NotFinite {
                 file: file(),
                 mesh: name,
             });
@@ -73,7 +73,7 @@ fn joined(document: &Document) -> Result<Mesh, LodWalkError> {
         faces.extend(mesh.faces().iter().map(moved));
         positions.extend_from_slice(mesh.positions());
     }
-    Mesh::new(positions, faces).map_err(|error| LodWalkError::Mesh {
+    Mesh::new(positions, faces).map_err(|error| LodError::Mesh {
         file: file(),
         error,
     })

@@ -15,7 +15,7 @@ mod walk_tests;
 pub use crate::lod::geometry_cache::Eviction;
 pub use camera_file::{MOST_FRAMES, cameras_from_json};
 pub use frame::{WalkFrame, WalkQuantity};
-pub use options::{LodWalkError, LodWalkOptions, WalkOptionError};
+pub use options::{LodError, LodWalkOptions, WalkOptionError};
 pub use paths::CameraPath;
 pub use report::{LodWalkReport, WalkOptimum, WalkSummary, WalkedMesh};
 pub use walk::lod_walk;

@@ -136,7 +136,7 @@ impl std::error::Error for WalkOptionError {}
 /// Why a mesh cannot be walked around.
 #[derive(Debug)]
 #[non_exhaustive]
-pub enum LodWalkError {
+pub enum LodError {
     /// An option is out of its range.
     Option(WalkOptionError),
     /// The document has no faces with three different corners.
@@ -178,7 +178,7 @@ pub enum LodWalkError {
     File(FileError),
 }
 
-impl fmt::Display for LodWalkError {
+impl fmt::Display for LodError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Option(error) => error.fmt(f),
@@ -206,21 +206,21 @@ impl fmt::Display for LodWalkError {
 }
 
 // No `source`: the text above already says it.
-impl std::error::Error for LodWalkError {}
+impl std::error::Error for LodError {}
 
-impl From<WalkOptionError> for LodWalkError {
+impl From<WalkOptionError> for LodError {
     fn from(error: WalkOptionError) -> Self {
         Self::Option(error)
     }
 }
 
-impl From<FileError> for LodWalkError {
+impl From<FileError> for LodError {
     fn from(error: FileError) -> Self {
         Self::File(error)
     }
 }
 
-impl From<GeometryCacheError> for LodWalkError {
+impl From<GeometryCacheError> for LodError {
     fn from(error: GeometryCacheError) -> Self {
         Self::Cache(error)
     }

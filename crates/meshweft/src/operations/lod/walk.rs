@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::frame::WalkFrame;
 use super::loading::{Loaded, load};
-use super::options::{LodWalkError, LodWalkOptions};
+use super::options::{LodError, LodWalkOptions};
 use super::report::{LodWalkReport, WalkOptimum, WalkedMesh};
 use crate::files::Document;
 use crate::index::{BLOCK, index32};
@@ -24,7 +24,7 @@ use crate::progress::Progress;
 /// run.
 ///
 /// # Errors
-/// [`LodWalkError`]: an option is out of range, there are no faces or no positions, or a camera sees nothing.
+/// [`LodError`]: an option is out of range, there are no faces or no positions, or a camera sees nothing.
 ///
 /// # Complexity
 /// That of [`FastMesh::build`](crate::lod::fast_mesh::FastMesh::build), and of [`Front::update`] for each frame.
@@ -46,7 +46,7 @@ pub fn lod_walk(
     options: &LodWalkOptions,
     clock: &dyn Fn() -> f64,
     progress: &dyn Progress,
-) -> Result<LodWalkReport, LodWalkError> {
+) -> Result<LodWalkReport, LodError> {
     options.check()?;
     let start = clock();
     let loaded = load(document)?;
@@ -76,7 +76,7 @@ pub fn lod_walk(
     for number in 0..count {
         let camera = options.path.camera(ball, number, count, options.size);
         let view = camera.view(options.tolerance);
-        let view = view.map_err(|error| LodWalkError::View {
+        let view = view.map_err(|error| LodError::View {
             frame: number,
             error,
         })?;

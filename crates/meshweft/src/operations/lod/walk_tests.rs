@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::frame::{WalkFrame, WalkQuantity};
 use super::loading::load;
-use super::options::{LodWalkError, LodWalkOptions};
+use super::options::{LodError, LodWalkOptions};
 use super::paths::CameraPath;
 use super::walk::{Walker, lod_walk};
 use crate::files::{Document, Format, ReadOptions};
@@ -300,8 +300,5 @@ fn what_cannot_be_walked_around_is_told() {
         ..usual
     };
     let error = lod_walk(&document, &options, &|| 0.0, &()).unwrap_err();
-    assert!(
-        matches!(error, LodWalkError::View { frame: 1, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, LodError::View { frame: 1, .. }), "{error}");
 }
