@@ -196,7 +196,6 @@ impl Values {
     }
 
     /// As many zeros of a type.
-    #[cfg(feature = "files")]
     pub(crate) fn zeros(component_type: ComponentType, len: usize) -> Self {
         match component_type {
             ComponentType::I8 => Self::I8(vec![0; len]),
@@ -215,7 +214,6 @@ impl Values {
     ///
     /// # Panics
     /// If their types differ, or an element is not there.
-    #[cfg(feature = "files")]
     pub(crate) fn put(
         &mut self,
         start: usize,
@@ -256,7 +254,6 @@ impl Values {
     }
 }
 
-#[cfg(feature = "files")]
 fn put<T: Copy>(
     to: &mut [T],
     start: usize,

@@ -1,7 +1,6 @@
 //! How far a coarser surface is from the vertices that left.
 
-use crate::geometry::double::dot;
-use crate::geometry::triangle::way_to_triangle;
+use crate::geometry::triangle::{PreparedTriangle, SquareDistance};
 use crate::topology::half_edges::NONE;
 
 /// The points that left, each with the face that was nearest when it was last looked for.
@@ -12,6 +11,8 @@ pub(super) struct NearestFaces {
     next: Vec<u32>,
     /// Those that have to be given to other faces.
     homeless: Vec<u32>,
+    /// The faces that they are given to, each with the least that the square of a point's distance can be.
+    around: Vec<(u32, PreparedTriangle, f64)>,
 }
 
 impl NearestFaces {
@@ -20,6 +21,7 @@ impl NearestFaces {
             first_of_face: vec![NONE; face_count],
             next: vec![NONE; point_count],
             homeless: Vec::new(),
+            around: Vec::new(),
         }
     }
 
@@ -42,21 +44,43 @@ impl NearestFaces {
         faces: &[(u32, [[f64; 3]; 3])],
         position: impl Fn(u32) -> [f64; 3],
     ) -> f64 {
+        self.around.clear();
+        let prepared = faces
+            .iter()
+            .map(|&(face, corners)| (face, PreparedTriangle::new(corners), 0.0));
+        self.around.extend(prepared);
         let mut farthest = 0.0_f64;
         for &point in &self.homeless {
             let from = position(point);
             let mut nearest = (NONE, f64::INFINITY);
-            for &(face, corners) in faces {
-                let way = way_to_triangle(from, corners);
-                let square = dot(way, way);
-                if square < nearest.1 || nearest.0 == NONE {
-                    nearest = (face, square);
+
+            // Most points are above a face; few of the others can be nearer.
+            for (face, triangle, least) in &mut self.around {
+                *least = match triangle.bound(from) {
+                    SquareDistance::AtLeast(least) => least,
+                    SquareDistance::Exact(square) => {
+                        if square < nearest.1 {
+                            nearest = (*face, square);
+                        }
+                        f64::INFINITY
+                    }
+                };
+            }
+            for &(face, ref triangle, least) in &self.around {
+                if least < nearest.1 {
+                    let square = triangle.square_distance(from);
+                    if square < nearest.1 {
+                        nearest = (face, square);
+                    }
                 }
             }
-            let (face, square) = nearest;
-            if face == NONE {
-                continue;
-            }
+
+            // Where a corner is not finite, some face.
+            let (face, square) = match (nearest, self.around.first()) {
+                ((NONE, _), Some(&(face, ..))) => (face, 0.0),
+                ((NONE, _), None) => continue,
+                (nearest, _) => nearest,
+            };
             farthest = farthest.max(square);
             let first = &mut self.first_of_face[face as usize];
             self.next[point as usize] = std::mem::replace(first, point);

@@ -15,13 +15,15 @@
 //!   long as no active vertex needs it.
 //! - **Numbers.** The *n*-th point that can leave has the faces 2*n* and 2*n* + 1 of those that can leave: a list of the active points is a
 //!   list of the active faces. Points are numbered from coarse to fine by octaves of their errors, near ones together.
+//! - **Errors.** How far the surface is from the input's vertices where a point left, measured on the mesh that a tolerance of that
+//!   error leaves: in the order of the build first, then twice in the order of the errors found before.
 //! - **Bounds.** Errors, balls and cones contain those below, along the collapses into one vertex too: what fails is always at the top
 //!   of the forest, so only the vertices of the front and those just below it are tested.
 //! - **Seams.** A point's vertices go together, each to its partner. Points where the surface is not a manifold stay.
 //!
 //! A `.mwl` file has it in blocks (`stored`), and a [`StreamedFront`] reads those that a view needs.
 //!
-//! Read `links` first, one collapse and its split; then `replay`, how each comes about, and `front`.
+//! Read `links` first, one collapse and its split; then `replay`, how each comes about, `measured`, and `front`.
 
 mod budget;
 mod build;
@@ -32,10 +34,12 @@ mod front;
 mod hierarchy;
 mod links;
 mod loader;
+mod measured;
 mod missing;
 mod numbering;
 mod queues;
 mod replay;
+mod sorted;
 mod stored;
 #[cfg(test)]
 mod stored_tests;

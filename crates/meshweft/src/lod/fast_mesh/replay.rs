@@ -118,10 +118,7 @@ impl<'a> Replay<'a> {
         debug_assert!(flags.is_some(), "vertices can be told from those around");
 
         // What there is around the point before.
-        self.faces.clear();
-        self.faces.extend(edge.faces());
-        let leaving = self.faces.len();
-        self.faces.extend(edge.fan(&self.edges).map(|it| it / 3));
+        let leaving = self.gather(edge);
         self.normals.clear();
         let middle = self.position(to);
         let (mut square, mut axis) = (0.0_f64, [0.0; 3]);
@@ -133,17 +130,39 @@ impl<'a> Replay<'a> {
             }
             axis = add(axis, self.put_normal(corners));
         }
-        self.deviation.take(point, &self.faces);
 
+        let deviation = self.leave(point, edge, leaving);
+
+        // What there is after.
+        for place in leaving..self.faces.len() {
+            self.put_normal(self.corners(self.faces[place]));
+        }
+        self.make_node(point, to, [deviation, square.sqrt()], axis);
+        self.made.push(Made {
+            point,
+            edge,
+            flags: flags.unwrap_or_default(),
+        });
+    }
+
+    /// Gathers the faces around the point of an edge, those that leave first; returns how many these are.
+    fn gather(&mut self, edge: Edge) -> usize {
+        self.faces.clear();
+        self.faces.extend(edge.faces());
+        let leaving = self.faces.len();
+        self.faces.extend(edge.fan(&self.edges).map(|it| it / 3));
+        leaving
+    }
+
+    /// A point leaves, around which faces were gathered; returns how far the surface is from the points that left there.
+    fn leave(&mut self, point: u32, edge: Edge, leaving: usize) -> f64 {
+        self.deviation.take(point, &self.faces);
         edge.collapse(&mut self.edges, |_| {});
 
-        // What there is after. Where no face of the fan stays, those beyond the one that left.
+        // Where no face of the fan stays, those beyond the one that left.
         self.staying.clear();
-        for place in leaving..self.faces.len() {
-            let face = self.faces[place];
-            let corners = self.corners(face);
-            self.staying.push((face, corners));
-            self.put_normal(corners);
+        for &face in &self.faces[leaving..] {
+            self.staying.push((face, self.corners(face)));
         }
         if self.staying.is_empty() {
             for face in edge.faces_around(&self.edges) {
@@ -152,14 +171,22 @@ impl<'a> Replay<'a> {
         }
         let positions = self.positions;
         let position = |point: u32| widened(positions[point as usize]);
-        let deviation = self.deviation.give(&self.staying, position);
+        self.deviation.give(&self.staying, position)
+    }
 
-        self.make_node(point, to, [deviation, square.sqrt()], axis);
-        self.made.push(Made {
-            point,
-            edge,
-            flags: flags.unwrap_or_default(),
-        });
+    /// The points return, all of them.
+    pub(super) fn split_all(&mut self) {
+        for made in self.made.iter().rev() {
+            made.edge.split(made.flags, &mut self.edges, |_| {});
+        }
+        self.deviation = NearestFaces::new(self.edges.len() / 3, self.positions.len());
+    }
+
+    /// A point leaves once more, by the number of its collapse; returns its error.
+    pub(super) fn collapse_again(&mut self, number: u32) -> f32 {
+        let Made { point, edge, .. } = self.made[number as usize];
+        let leaving = self.gather(edge);
+        rounded_up(self.leave(point, edge, leaving))
     }
 
     /// Remembers the normal of a face with an area; returns it, as long as the area is large.
