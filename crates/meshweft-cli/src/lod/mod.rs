@@ -1,10 +1,12 @@
 //! `lod`: detail that follows the eye.
 
+mod build;
 mod walk;
 
 use anyhow::Result;
 use clap::{Args, Subcommand};
 
+use build::Build;
 use walk::Walk;
 
 #[derive(Debug, Args)]
@@ -15,6 +17,16 @@ pub(crate) struct Lod {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    /// Write a mesh with every level of detail to a .mwl file
+    ///
+    /// All meshes of the file become one. What is written is read back and compared: full detail is the input, face for face and
+    /// bit for bit. A file that holds more than positions and faces is refused without --drop-attributes.
+    ///
+    ///   meshweft lod build scan.ply -o scan.mwl
+    ///   meshweft lod build scene.glb -o scene.mwl --drop-attributes
+    ///   meshweft lod build scan.ply --dry-run --json
+    #[command(verbatim_doc_comment)]
+    Build(Build),
     /// Move the eye around a mesh, and count what each frame sends to a graphics card
     ///
     /// The mesh is refined where its error could be seen and coarsened elsewhere, frame by frame. Its active vertices are
@@ -33,6 +45,7 @@ enum Verb {
 
 pub(crate) fn run(arguments: &Lod) -> Result<()> {
     match &arguments.verb {
+        Verb::Build(arguments) => build::run(arguments),
         Verb::Walk(arguments) => walk::run(arguments),
     }
 }

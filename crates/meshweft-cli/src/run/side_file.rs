@@ -69,6 +69,13 @@ pub(crate) const ARCHIVE: SideFile = SideFile {
     is_own: |start| start.starts_with(b"MWZ\x1a"),
 };
 
+/// What `lod build` writes.
+pub(crate) const HIERARCHY: SideFile = SideFile {
+    flag: "--output",
+    other: "another name",
+    is_own: |start| start.starts_with(b"MWLD"),
+};
+
 /// What `--manifest` appends to.
 pub(crate) const MANIFEST: SideFile = SideFile {
     flag: "--manifest",

@@ -208,7 +208,7 @@ fn cameras_come_from_a_file() {
     assert_eq!(run.code(), 1);
     assert!(
         run.err()
-            .contains("points.off: there are no faces to walk around"),
+            .contains("points.off: there are no faces with three corners apart"),
         "{}",
         run.err()
     );

@@ -9,6 +9,7 @@ mod demo;
 mod disk;
 mod kept;
 mod lod;
+mod lod_files;
 mod many;
 mod nothing_lost;
 mod papers;

@@ -4,7 +4,8 @@
 //! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
 //! document and keeps every other byte, `simplify` takes faces away from it, `inspect` counts it as it is, and
 //! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads, `cull_build` adds tables that say which faces need not be
-//! drawn, and `cull_stats` counts what these leave out, `lod_walk` walks around a mesh whose detail follows the eye; their reports are values that know their JSON.
+//! drawn, and `cull_stats` counts what these leave out, `lod_build` makes a file of a mesh with every level of detail,
+//! and `lod_walk` walks around one whose detail follows the eye; their reports are values that know their JSON.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
 //! along a history such as [`collapse_history`] makes. [`StripedMesh`] and [`FacePlanes`] count what of a mesh is drawn, and
 //! what could be left out, from where it is seen.
@@ -36,6 +37,8 @@ mod inspect;
 mod json;
 #[cfg(feature = "files")]
 mod lod;
+#[cfg(feature = "files")]
+mod losses;
 mod methods;
 #[cfg(feature = "files")]
 mod optimize;
@@ -76,9 +79,9 @@ pub use inspect::{InspectReport, inspect};
 pub use json::SCHEMA;
 #[cfg(feature = "files")]
 pub use lod::{
-    CameraPath, Eviction, LodError, LodWalkOptions, LodWalkReport, MOST_FRAMES, WalkFrame,
-    WalkOptimum, WalkOptionError, WalkQuantity, WalkSummary, WalkedMesh, cameras_from_json,
-    lod_walk,
+    CameraPath, Eviction, LodBuildOptions, LodBuildReport, LodError, LodWalkOptions, LodWalkReport,
+    MOST_FRAMES, WalkFrame, WalkOptimum, WalkOptionError, WalkQuantity, WalkSummary, WalkedMesh,
+    cameras_from_json, lod_build, lod_walk,
 };
 pub use methods::{InBatches, Method, grid_orders, linear_arrangement_cost};
 #[cfg(feature = "files")]

@@ -101,6 +101,24 @@ impl VertexHierarchy {
         self.cut_points
     }
 
+    /// The point of a vertex.
+    #[inline]
+    pub(super) fn point_of(&self, vertex: u32) -> u32 {
+        match (vertex as usize).checked_sub(self.nodes.len()) {
+            None => vertex,
+            Some(place) => self.side_points[place],
+        }
+    }
+
+    /// Where a vertex is. Of a vertex that was not read yet, the origin.
+    ///
+    /// # Panics
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn position(&self, vertex: u32) -> [f32; 3] {
+        self.positions[self.point_of(vertex) as usize]
+    }
+
     /// The error of a vertex: how far the surface is from the input's vertices where its point has left, in units of the positions;
     /// infinite for roots. The coarser the detail, the larger. Attributes do not count.
     ///
@@ -108,11 +126,7 @@ impl VertexHierarchy {
     /// If there is no such vertex.
     #[must_use]
     pub fn error(&self, vertex: u32) -> f32 {
-        let point = match (vertex as usize).checked_sub(self.nodes.len()) {
-            None => vertex,
-            Some(place) => self.side_points[place],
-        };
-        self.nodes[point as usize].error
+        self.nodes[self.point_of(vertex) as usize].error
     }
 
     /// How many collapses are one after the other at most.

@@ -6,7 +6,6 @@ mod report;
 
 use std::borrow::Cow;
 
-use crate::attribute::{AttributeInfo, ComponentType, Semantic};
 use crate::compression::{
     CodeOptions, DecodedMesh, MeshArchive, MeshCode, PolygonOrder, PositionCoding,
 };
@@ -15,11 +14,11 @@ use crate::files::Document;
 use crate::geometry::Lattice;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
+use crate::operations::losses::{self, Losses};
 use crate::operations::plain_meshes::plain_meshes;
 use crate::permutation::{FaceOrder, VertexOrder};
 
 pub use crate::compression::{KeepOrder, PolygonCounts, Tier};
-use crate::operations::facets::says_nothing;
 pub use decompress::{DecodedOrder, DecompressOptions, DecompressedMesh, decompress};
 pub use options::{CompressError, CompressOptions, PositionPrecision};
 pub use report::{CompressReport, CompressedMesh};
@@ -139,66 +138,36 @@ fn is_power_of_two(step: f64) -> bool {
 /// Whether everything of a document can be compressed, but for what the options leave out.
 fn check(document: &Document, options: &CompressOptions) -> Result<(), CompressError> {
     let file = || document.path().to_owned();
-    let mut unlisted = document.unlisted();
-    if let Some(unread) = unlisted.iter().find(|it| it.has_faces) {
-        return Err(CompressError::UnreadFaces {
-            file: file(),
-            mesh: unread.what.clone(),
-        });
+    if let Some(mesh) = losses::unread_outside(document) {
+        return Err(CompressError::UnreadFaces { file: file(), mesh });
     }
     let entries = document.meshes();
     if entries.is_empty() {
         return Err(CompressError::NoMesh { file: file() });
     }
-    let mut others = Vec::new();
     for (number, entry) in entries.iter().enumerate() {
-        let mesh = || entry.name.clone();
+        let (file, mesh) = (file(), entry.name.clone());
         if entry.has_other_faces {
-            return Err(CompressError::UnreadFaces {
-                file: file(),
-                mesh: mesh(),
-            });
+            return Err(CompressError::UnreadFaces { file, mesh });
         }
-        let is_line = |record| entry.faces_of(record).is_empty();
-        if !options.triangles && (0..entry.record_count()).any(is_line) {
-            return Err(CompressError::Lines {
-                file: file(),
-                mesh: mesh(),
-            });
+        if !options.triangles && losses::has_lines(entry) {
+            return Err(CompressError::Lines { file, mesh });
         }
-
-        let (positions, mut rest): (Vec<_>, Vec<_>) = document
-            .attributes(number)
-            .into_iter()
-            .partition(|info| info.semantic == Semantic::Position && info.morph_target.is_none());
-        use ComponentType::{F64, I32, U32};
-        let is_wide = |info: &AttributeInfo| matches!(info.component_type, F64 | I32 | U32);
-        if options.positions == PositionPrecision::Lossless && positions.iter().any(is_wide) {
-            return Err(CompressError::WidePositions {
-                file: file(),
-                mesh: mesh(),
-            });
-        }
-        if !options.drop_attributes {
-            let mut said = Vec::new();
-            for info in rest {
-                if !says_nothing(document, number, &info)? {
-                    said.push(info);
-                }
-            }
-            rest = said;
-        }
-        if !rest.is_empty() {
-            others.push((mesh(), rest));
+        let is_lossless = options.positions == PositionPrecision::Lossless;
+        if is_lossless && losses::has_wide_positions(document, number) {
+            return Err(CompressError::WidePositions { file, mesh });
         }
     }
-    let is_all = others.is_empty() && unlisted.is_empty();
-    match is_all || options.drop_attributes {
+    if options.drop_attributes {
+        return Ok(());
+    }
+    let losses = Losses::of(document, |_, _| false)?;
+    match losses.is_empty() {
         true => Ok(()),
         false => Err(CompressError::Attributes {
             file: file(),
-            attributes: others,
-            others: unlisted.drain(..).map(|it| it.what).collect(),
+            attributes: losses.attributes,
+            others: losses.others,
         }),
     }
 }

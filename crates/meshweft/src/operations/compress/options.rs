@@ -3,11 +3,12 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use crate::attribute::{AttributeInfo, Domain};
+use crate::attribute::AttributeInfo;
 use crate::compression::{CodeError, KeepOrder, Tier};
 use crate::connectivity::FirstVertex;
 use crate::error::MeshError;
 use crate::files::FileError;
+use crate::operations::losses;
 
 /// How a document is compressed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -111,33 +112,19 @@ impl fmt::Display for CompressError {
                 file,
                 attributes,
                 others,
-            } => {
-                let of_mesh = attributes.iter().map(|(mesh, attributes)| {
-                    let names: Vec<String> = attributes.iter().map(name_of).collect();
-                    format!("{mesh} also stores {}", names.join(", "))
-                });
-                let others = (!others.is_empty())
-                    .then(|| format!("the file also has {}", others.join(", ")));
-                let all: Vec<String> = of_mesh.chain(others).collect();
-                write!(
-                    f,
-                    "{}: positions and faces are compressed, and {}. Leave them out with drop_attributes",
-                    file.display(),
-                    all.join("; ")
-                )
-            }
+            } => write!(
+                f,
+                "{}: positions and faces are compressed, and {}. Leave them out with drop_attributes",
+                file.display(),
+                losses::told(attributes, others)
+            ),
             Self::Lines { file, mesh } => write!(
                 f,
                 "{}: {mesh} has faces of fewer than three corners, which cannot be compressed. Leave them out, and store \
                  the triangles that polygons are drawn as, with triangles",
                 file.display()
             ),
-            Self::UnreadFaces { file, mesh } => write!(
-                f,
-                "{}: {mesh} has faces that cannot be read (strips, fans, compressed ones, or a list of another mesh with \
-                 other positions), so it cannot be compressed whole. Convert the file to lists of triangles",
-                file.display()
-            ),
+            Self::UnreadFaces { file, mesh } => losses::write_unread(f, file, mesh, "compressed"),
             Self::NoMesh { file } => {
                 write!(f, "{}: there is no mesh to compress", file.display())
             }
@@ -178,15 +165,5 @@ impl std::error::Error for CompressError {}
 impl From<FileError> for CompressError {
     fn from(error: FileError) -> Self {
         Self::File(error)
-    }
-}
-
-/// What an attribute is called.
-fn name_of(info: &AttributeInfo) -> String {
-    let name = &info.semantic;
-    match (info.morph_target, info.domain) {
-        (Some(target), _) => format!("{name} of morph target {target}"),
-        (None, Domain::Face) => format!("{name} of faces"),
-        (None, _) => name.to_string(),
     }
 }

@@ -37,12 +37,18 @@ pub(super) fn load(document: &Document) -> Result<Loaded, LodError> {
             ball,
             face_count,
         }),
-        _ => Err(LodError::NoFaces { file: file() }),
+        _ => Err(no_faces(document)),
     }
 }
 
+/// That there is nothing to draw.
+pub(super) fn no_faces(document: &Document) -> LodError {
+    let file = document.path().to_owned();
+    LodError::NoFaces { file }
+}
+
 /// All meshes as one, the vertices of each after those of the one before.
-fn joined(document: &Document) -> Result<Mesh, LodError> {
+pub(super) fn joined(document: &Document) -> Result<Mesh, LodError> {
     let file = || document.path().to_owned();
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     for (name, mesh) in plain_meshes(document)? {

@@ -5,10 +5,12 @@ use std::path::PathBuf;
 
 use super::camera_file::MOST_FRAMES;
 use super::paths::CameraPath;
+use crate::attribute::AttributeInfo;
 use crate::error::MeshError;
 use crate::files::FileError;
 use crate::lod::fast_mesh::ViewError;
 use crate::lod::geometry_cache::{Eviction, GeometryCacheError};
+use crate::operations::losses;
 
 /// How a mesh is walked around.
 #[derive(Debug, Clone, PartialEq)]
@@ -172,6 +174,27 @@ pub enum LodError {
         /// Why.
         error: ViewError,
     },
+    /// The file holds what a `.mwl` file cannot.
+    Losses {
+        /// The file.
+        file: PathBuf,
+        /// What meshes store, by mesh.
+        attributes: Vec<(String, Vec<AttributeInfo>)>,
+        /// What else there is, in the words of the format.
+        others: Vec<String>,
+    },
+    /// A mesh has faces that were not read.
+    UnreadFaces {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
+    /// What was made does not give the mesh back: a fault of this library.
+    NotVerified {
+        /// The file.
+        file: PathBuf,
+    },
     /// The slots cannot take these vertices.
     Cache(GeometryCacheError),
     /// The document cannot be read.
@@ -184,7 +207,7 @@ impl fmt::Display for LodError {
             Self::Option(error) => error.fmt(f),
             Self::NoFaces { file } => write!(
                 f,
-                "{}: there are no faces to walk around: name a file with a mesh",
+                "{}: there are no faces with three corners apart: name a file with a mesh",
                 file.display()
             ),
             Self::NoPositions { file, mesh } => write!(
@@ -199,6 +222,23 @@ impl fmt::Display for LodError {
             ),
             Self::Mesh { file, error } => write!(f, "{}: {error}", file.display()),
             Self::View { frame, error } => write!(f, "frame {frame}: {error}"),
+            Self::Losses {
+                file,
+                attributes,
+                others,
+            } => write!(
+                f,
+                "{}: a .mwl file has positions and faces, and {}. Leave them out with drop_attributes",
+                file.display(),
+                losses::told(attributes, others)
+            ),
+            Self::UnreadFaces { file, mesh } => losses::write_unread(f, file, mesh, "built"),
+            Self::NotVerified { file } => write!(
+                f,
+                "{}: the file that was made does not give the mesh back, so nothing is written. This is a fault of meshweft: \
+                 please report it with the file",
+                file.display()
+            ),
             Self::Cache(error) => error.fmt(f),
             Self::File(error) => error.fmt(f),
         }
