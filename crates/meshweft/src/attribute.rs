@@ -238,6 +238,20 @@ impl Values {
         }
     }
 
+    /// The components that these bytes are, the lowest byte of each first; what is left of the bytes is passed over.
+    pub(crate) fn from_le_bytes(component_type: ComponentType, bytes: &[u8]) -> Self {
+        match component_type {
+            ComponentType::I8 => Self::I8(each_of_bytes(bytes, i8::from_le_bytes)),
+            ComponentType::U8 => Self::U8(bytes.to_vec()),
+            ComponentType::I16 => Self::I16(each_of_bytes(bytes, i16::from_le_bytes)),
+            ComponentType::U16 => Self::U16(each_of_bytes(bytes, u16::from_le_bytes)),
+            ComponentType::I32 => Self::I32(each_of_bytes(bytes, i32::from_le_bytes)),
+            ComponentType::U32 => Self::U32(each_of_bytes(bytes, u32::from_le_bytes)),
+            ComponentType::F32 => Self::F32(each_of_bytes(bytes, f32::from_le_bytes)),
+            ComponentType::F64 => Self::F64(each_of_bytes(bytes, f64::from_le_bytes)),
+        }
+    }
+
     /// The bytes of all components, the lowest of each first.
     #[must_use]
     pub fn to_le_bytes(&self) -> Vec<u8> {
@@ -265,6 +279,11 @@ fn put<T: Copy>(
     for (place, element) in places.zip(elements) {
         place.copy_from_slice(&from[element as usize * components..][..components]);
     }
+}
+
+fn each_of_bytes<T, const N: usize>(bytes: &[u8], value: fn([u8; N]) -> T) -> Vec<T> {
+    let (chunks, _) = bytes.as_chunks::<N>();
+    chunks.iter().map(|&chunk| value(chunk)).collect()
 }
 
 fn bytes_of_each<T: Copy, const N: usize>(values: &[T], bytes: fn(T) -> [u8; N]) -> Vec<u8> {
@@ -379,6 +398,24 @@ mod tests {
         let fractions = Attribute::new(info, values).to_f32();
         assert_eq!(fractions[..4], [-1.0, -1.0, 0.0, 1.0]);
         assert_eq!(fractions[5], 1.0 / 127.0);
+    }
+
+    #[test]
+    fn bytes_are_values_again() {
+        for values in [
+            Values::I8(vec![-1, 2]),
+            Values::U8(vec![255, 2]),
+            Values::I16(vec![-2, 300]),
+            Values::U16(vec![65_535, 2]),
+            Values::I32(vec![-70_000, 2]),
+            Values::U32(vec![u32::MAX, 2]),
+            Values::F32(vec![-0.5, f32::MAX]),
+            Values::F64(vec![0.1, -1e300]),
+        ] {
+            let bytes = values.to_le_bytes();
+            let back = Values::from_le_bytes(values.component_type(), &bytes);
+            assert_eq!(back, values);
+        }
     }
 
     #[test]

@@ -29,11 +29,14 @@ pub(super) struct Build {
     /// Do everything but write
     #[arg(long)]
     dry_run: bool,
-    /// Leave out whatever is not a position or a face; a file that has more is refused without it, and the message names
-    /// what: normals, texture coordinates, colors, materials, groups, polygons, the borders and names of several meshes, lines,
-    /// nodes that are moved or drawn twice, animations, elements of other names
+    /// Leave out what a .mwl file cannot hold; a file that has such is refused without it, and the message names what:
+    /// attributes of corners and faces, or of the vertices of some meshes only, materials, groups, polygons, the borders and
+    /// names of several meshes, lines, nodes that are moved or drawn twice, animations, elements of other names
     #[arg(long, display_order = 2)]
     drop_attributes: bool,
+    /// Leave out normals, texture coordinates, colors and all else of vertices too: positions and faces alone
+    #[arg(long, display_order = 2)]
+    positions_only: bool,
     /// Replace the output, whatever it is
     #[arg(long, display_order = 99)]
     force: bool,
@@ -66,6 +69,7 @@ pub(super) fn run(arguments: &Build) -> Result<()> {
     let document = Document::open(&arguments.input, reading)?;
     let mut options = LodBuildOptions::default();
     options.drop_attributes = arguments.drop_attributes;
+    options.positions_only = arguments.positions_only;
     let (bytes, mut report) = operations::lod_build(&document, &options)?;
     drop(document);
     if let Some(output) = output {
@@ -104,6 +108,11 @@ fn text(report: &LodBuildReport) -> String {
     ];
     for (count, what) in asides.into_iter().filter(|&(count, _)| count > 0) {
         text += &format!("\n{what}: {count}");
+    }
+    if !report.attributes.is_empty() {
+        let names = report.attributes.iter().map(|it| it.semantic.to_string());
+        let names: Vec<String> = names.collect();
+        text += &format!("\nwith each vertex: {}", names.join(", "));
     }
     text += &format!(
         "\n{} -> {} bytes in {:.1} s; read back and compared",

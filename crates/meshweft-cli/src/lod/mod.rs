@@ -1,12 +1,14 @@
 //! `lod`: detail that follows the eye.
 
 mod build;
+mod extract;
 mod walk;
 
 use anyhow::Result;
 use clap::{Args, Subcommand};
 
 use build::Build;
+use extract::Extract;
 use walk::Walk;
 
 #[derive(Debug, Args)]
@@ -20,13 +22,24 @@ enum Verb {
     /// Write a mesh with every level of detail to a .mwl file
     ///
     /// All meshes of the file become one. What is written is read back and compared: full detail is the input, face for face and
-    /// bit for bit. A file that holds more than positions and faces is refused without --drop-attributes.
+    /// bit for bit. What all vertices store besides their positions is kept. A file that holds more is refused without
+    /// --drop-attributes.
     ///
     ///   meshweft lod build scan.ply -o scan.mwl
     ///   meshweft lod build scene.glb -o scene.mwl --drop-attributes
     ///   meshweft lod build scan.ply --dry-run --json
     #[command(verbatim_doc_comment)]
     Build(Build),
+    /// Take one mesh from a .mwl file
+    ///
+    /// Only the blocks of the file are read that the mesh needs. --error 0 gives the mesh that the file was built of, bit for bit, but for
+    /// faces with two corners at one place, which the file does not have. Faces and vertices come in an order to be drawn.
+    ///
+    ///   meshweft lod extract scan.mwl --error .01 -o coarse.glb
+    ///   meshweft lod extract scan.mwl --vertices 10000 -o small.ply
+    ///   meshweft lod extract scan.mwl --camera cameras.json --frame 3 --tolerance 1 --size 1920x1080 -o seen.glb
+    #[command(verbatim_doc_comment)]
+    Extract(Extract),
     /// Move the eye around a mesh, and count what each frame sends to a graphics card
     ///
     /// The mesh is refined where its error could be seen and coarsened elsewhere, frame by frame. Its active vertices are
@@ -46,6 +59,7 @@ enum Verb {
 pub(crate) fn run(arguments: &Lod) -> Result<()> {
     match &arguments.verb {
         Verb::Build(arguments) => build::run(arguments),
+        Verb::Extract(arguments) => extract::run(arguments),
         Verb::Walk(arguments) => walk::run(arguments),
     }
 }

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use meshweft::files::{Document, ReadOptions};
 use meshweft::operations::{
-    self, CameraPath, Eviction, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
+    self, Camera, CameraPath, Eviction, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
 };
 
 use crate::columns::columns;
@@ -95,7 +95,7 @@ impl Policy {
 }
 
 /// A width and a height, such as `800x600`.
-fn picture_size(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn picture_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').map(|(width, height)| [width, height]);
     let sides = sides.and_then(|[width, height]| Some([width.parse().ok()?, height.parse().ok()?]));
     sides.ok_or_else(|| "give width and height in pixels, such as 800x600".to_owned())
@@ -159,8 +159,13 @@ fn path(arguments: &Walk) -> Result<CameraPath> {
         let told = format!("--path {name}: give {names}, or a file of cameras (.json)");
         return Err(Usage(told).into());
     }
+    let cameras = cameras(file, &arguments.limits, arguments.size)?;
+    Ok(CameraPath::Given(cameras.into()))
+}
 
-    let limit = arguments.limits.limits().file_bytes;
+/// The cameras of a file.
+pub(super) fn cameras(file: &Path, limits: &Size, size: [u32; 2]) -> Result<Vec<Camera>> {
+    let limit = limits.limits().file_bytes;
     let mut bytes = Vec::new();
     let read = fs::File::open(file);
     let read = read.and_then(|opened| opened.take(limit.saturating_add(1)).read_to_end(&mut bytes));
@@ -171,8 +176,7 @@ fn path(arguments: &Walk) -> Result<CameraPath> {
             file.display()
         );
     }
-    let cameras = operations::cameras_from_json(file, &bytes, arguments.size)?;
-    Ok(CameraPath::Given(cameras.into()))
+    Ok(operations::cameras_from_json(file, &bytes, size)?)
 }
 
 /// What is shown of a quantity, and its digits after the point.

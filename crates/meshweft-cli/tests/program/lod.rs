@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::Folder;
 
 /// Waves over a square of 50 by 50 cells, as OFF.
-fn waves_off() -> String {
+pub(crate) fn waves_off() -> String {
     let side = 50;
     let place = |i: u32| {
         let [x, y] = [i % (side + 1), i / (side + 1)].map(|at| f64::from(at) / 4.0);

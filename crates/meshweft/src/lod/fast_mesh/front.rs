@@ -94,6 +94,22 @@ impl Front {
         self.face_count
     }
 
+    /// The largest error of the vertices that are not active; 0 if all are. It is that of the whole surface, seen or not.
+    ///
+    /// # Complexity
+    /// Time O(vertices).
+    #[must_use]
+    pub fn largest_error_left(&self) -> f32 {
+        let points = self.hierarchy.leaving_points();
+        let inactive = points.filter(|&point| !self.is_leaving_active(point));
+        // Of a block that was not read all points are inactive.
+        let errors = inactive.map(|point| {
+            let missing = self.hierarchy.missing.largest_error(point);
+            missing.unwrap_or(self.hierarchy.nodes[point as usize].error)
+        });
+        errors.fold(0.0, f32::max)
+    }
+
     /// What the last update changed.
     #[must_use]
     pub fn changes(&self) -> &FrontChanges {

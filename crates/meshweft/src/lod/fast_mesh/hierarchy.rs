@@ -3,6 +3,7 @@
 use super::cone::PackedCone;
 use super::links::Edge;
 use super::missing::MissingBlocks;
+use super::rows::VertexRows;
 use super::view::DetailBound;
 use crate::index::index32;
 use crate::topology::half_edges::{HalfEdges, NONE};
@@ -11,7 +12,8 @@ use crate::topology::half_edges::{HalfEdges, NONE};
 ///
 /// A *point* is a place of the mesh; at seams it has several vertices. Points are numbered from coarse to fine by octaves of
 /// their errors: first the roots, which never leave, then those that may, each with one or two faces. The first vertex of a point has its number, others come
-/// after all points. 92 bytes a vertex, and 4 more in a front.
+/// after all points. 92 bytes a vertex, 4 more in a front, and those of
+/// [attributes](Self::with_attributes).
 #[derive(Debug, Clone)]
 pub struct VertexHierarchy {
     /// One entry a point.
@@ -33,6 +35,10 @@ pub struct VertexHierarchy {
     pub(super) flat_faces: Vec<u32>,
     /// How many points stay because the surface is not a manifold there.
     pub(super) cut_points: usize,
+    /// What else is stored with each vertex.
+    pub(super) rows: VertexRows,
+    /// That of the mesh.
+    pub(super) name: String,
 }
 
 /// What is known of the collapse of a point, and what of those into it.

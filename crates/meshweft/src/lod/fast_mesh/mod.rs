@@ -25,11 +25,15 @@
 //!
 //! Read `links` first, one collapse and its split; then `replay`, how each comes about, `measured`, and `front`.
 
+mod attached;
 mod budget;
 mod build;
 mod changes;
 mod cone;
 mod deviation;
+#[cfg(test)]
+mod errors_above_tests;
+mod fields;
 mod front;
 mod hierarchy;
 mod links;
@@ -39,11 +43,17 @@ mod missing;
 mod numbering;
 mod queues;
 mod replay;
+mod rows;
+#[cfg(test)]
+mod rows_tests;
 mod sorted;
 mod stored;
+mod stored_rows;
 #[cfg(test)]
 mod stored_tests;
 mod streamed;
+#[cfg(test)]
+mod streamed_tests;
 mod tested;
 #[cfg(test)]
 mod tests;

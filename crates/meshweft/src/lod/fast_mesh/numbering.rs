@@ -5,6 +5,7 @@ use std::cmp::Reverse;
 use super::hierarchy::{HierarchyNode, VertexHierarchy};
 use super::missing::MissingBlocks;
 use super::replay::{Made, Replay};
+use super::rows::VertexRows;
 use crate::geometry::morton::MortonCells;
 use crate::index::index32;
 use crate::topology::half_edges::{HalfEdge, HalfEdges, NONE};
@@ -62,6 +63,8 @@ pub(super) fn finish(mut replay: Replay<'_>) -> VertexHierarchy {
         source_vertices,
         flat_faces: replay.flat_faces,
         cut_points: replay.cut_points,
+        rows: VertexRows::default(),
+        name: String::new(),
     }
 }
 

@@ -4,19 +4,23 @@
 //! |---|---|
 //! | magic `MWLD`, version 1 | 5 |
 //! | length of the head, CRC-32 of the head | 4 + 4, little-endian |
-//! | head: numbers, see [`StoredCounts`], then for each block its length, its CRC-32 and the largest error in it | |
+//! | head: numbers, see [`StoredCounts`], then for each block its length, its CRC-32 and the largest error in it, then what attributes are, and a name: see [`stored_rows`] | |
 //! | block 0: the roots and the faces that never leave | |
 //! | blocks 1, 2 …: 256 points each, from coarse to fine | |
 //!
 //! Numbers are varints, seven bits a byte, lowest first; positions, errors and radii are `f32`, little-endian. In a block each
-//! field has all its points one after the other. Points and half-edges are stored as differences with a sign from that
-//! to which they belong, plus one: 0 stands for none.
+//! field has all its points one after the other, and last come the rows of their vertices. Points and half-edges are stored as
+//! differences with a sign from that to which they belong, plus one: 0 stands for none.
 
 use std::ops::Range;
 
 use super::cone::PackedCone;
+use super::fields::{FieldReader, put_difference, put_f32s};
 use super::hierarchy::{HierarchyNode, VertexHierarchy};
 use super::missing::{BLOCK_POINTS, MissingBlocks};
+use super::rows::{VertexRows, size_of};
+use super::stored_rows;
+use crate::attribute::AttributeInfo;
 use crate::bits::{DecodeError, DecodeErrorKind, crc32, varint};
 use crate::index::index32;
 use crate::limits::Limits;
@@ -56,13 +60,17 @@ pub(super) struct Head {
     pub(super) counts: StoredCounts,
     /// That of the roots, then those of the other points.
     pub(super) blocks: Vec<BlockEntry>,
+    /// What the rows of vertices are.
+    pub(super) layouts: Vec<AttributeInfo>,
+    /// That of the mesh.
+    pub(super) name: String,
 }
 
 impl VertexHierarchy {
     /// The hierarchy as bytes, as a `.mwl` file has it.
     ///
     /// # Complexity
-    /// Time O(vertices), about 50 bytes each.
+    /// Time O(vertices), about 50 bytes each and those of attributes.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut blocks = vec![self.root_block()];
@@ -91,6 +99,7 @@ impl VertexHierarchy {
             head.extend(crc32(block).to_le_bytes());
             head.extend(error.to_le_bytes());
         }
+        stored_rows::write(&mut head, &self.rows.layouts, &self.name);
 
         let mut bytes = MAGIC.to_vec();
         bytes.push(VERSION);
@@ -129,6 +138,7 @@ impl VertexHierarchy {
         for &face in &self.flat_faces {
             varint::write(&mut bytes, face.into());
         }
+        self.put_rows(&mut bytes, 0..self.roots);
         bytes
     }
 
@@ -159,91 +169,8 @@ impl VertexHierarchy {
                 }
             }
         }
+        self.put_rows(&mut bytes, points);
         bytes
-    }
-}
-
-/// The difference of a number from another, plus one; 0 for [`NONE`].
-fn put_difference(bytes: &mut Vec<u8>, from: u32, number: u32) {
-    let difference = match number {
-        NONE => 0,
-        _ => 1 + varint::zigzag(i64::from(number) - i64::from(from)),
-    };
-    varint::write(bytes, difference);
-}
-
-fn put_f32s<const N: usize>(bytes: &mut Vec<u8>, numbers: [f32; N]) {
-    for number in numbers {
-        bytes.extend(number.to_le_bytes());
-    }
-}
-
-/// Bytes that are read from the front; `at` is where they were in the file.
-struct FieldReader<'a> {
-    rest: &'a [u8],
-    end: usize,
-}
-
-impl<'a> FieldReader<'a> {
-    fn new(bytes: &'a [u8], at: usize) -> Self {
-        Self {
-            rest: bytes,
-            end: at + bytes.len(),
-        }
-    }
-
-    fn error(&self, kind: DecodeErrorKind) -> DecodeError {
-        DecodeError {
-            byte: self.end - self.rest.len(),
-            kind,
-        }
-    }
-
-    fn damaged(&self) -> DecodeError {
-        self.error(DecodeErrorKind::Damaged)
-    }
-
-    fn number(&mut self) -> Result<u64, DecodeError> {
-        varint::read(&mut self.rest).ok_or_else(|| self.error(DecodeErrorKind::EndsEarly))
-    }
-
-    /// A number below a limit.
-    fn below(&mut self, limit: u32) -> Result<u32, DecodeError> {
-        let number = u32::try_from(self.number()?).ok();
-        number
-            .filter(|&it| it < limit)
-            .ok_or_else(|| self.damaged())
-    }
-
-    /// A number in a range by its difference from another, or [`NONE`].
-    fn difference(&mut self, from: u32, range: Range<u32>) -> Result<u32, DecodeError> {
-        let Some(difference) = self.number()?.checked_sub(1) else {
-            return Ok(NONE);
-        };
-        let number = i64::from(from).checked_add(varint::unzigzag(difference));
-        let number = number.and_then(|it| u32::try_from(it).ok());
-        let number = number.filter(|it| range.contains(it));
-        number.ok_or_else(|| self.damaged())
-    }
-
-    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], DecodeError> {
-        let bytes = self.rest.split_off(..N).and_then(|it| it.try_into().ok());
-        bytes.ok_or_else(|| self.error(DecodeErrorKind::EndsEarly))
-    }
-
-    fn f32s<const N: usize>(&mut self) -> Result<[f32; N], DecodeError> {
-        let mut numbers = [0.0; N];
-        for number in &mut numbers {
-            *number = f32::from_le_bytes(self.bytes()?);
-        }
-        Ok(numbers)
-    }
-
-    fn finish(self) -> Result<(), DecodeError> {
-        match self.rest.is_empty() {
-            true => Ok(()),
-            false => Err(self.damaged()),
-        }
     }
 }
 
@@ -322,19 +249,30 @@ impl Head {
         if offset != file_length {
             return Err(reader.error(DecodeErrorKind::EndsEarly));
         }
-        // What is allocated for all points is in proportion to the file.
+        let (layouts, name) = stored_rows::read(&mut reader)?;
+        // What is allocated for all points and vertices is in proportion to the file.
         let least =
             LEAST_BYTES * u64::from(points - counts.roots) + u64::from(counts.vertices - points);
-        if file_length < least + u64::from(counts.root_faces) {
+        let sizes: u64 = layouts.iter().map(|info| size_of(info) as u64).sum();
+        let rows = sizes.saturating_mul(counts.vertices.into());
+        let is_long = sizes > MOST_ROW;
+        if is_long || file_length < (least + u64::from(counts.root_faces)).saturating_add(rows) {
             return Err(reader.damaged());
         }
         reader.finish()?;
-        Ok(Self { counts, blocks })
+        Ok(Self {
+            counts,
+            blocks,
+            layouts,
+            name,
+        })
     }
 }
 
 /// From so many points on, places in a front would not have a bit to spare.
 const MOST_POINTS: u32 = 1 << 28;
+/// Bytes of the attributes of a vertex.
+const MOST_ROW: u64 = 1 << 24;
 
 impl Head {
     /// The hierarchy without the points that may leave: they are read when they are needed. `bytes` are those of block 0.
@@ -385,7 +323,6 @@ impl Head {
         for _ in 0..self.counts.flat_faces {
             flat_faces.push(reader.below(u32::MAX)?);
         }
-        reader.finish()?;
 
         nodes.resize(points as usize, HierarchyNode::ROOT);
         positions.resize(points as usize, [0.0; 3]);
@@ -395,7 +332,7 @@ impl Head {
         };
         edges.resize(3 * faces as usize, none);
         let errors = self.blocks[1..].iter().map(|block| block.largest_error);
-        Ok(VertexHierarchy {
+        let mut hierarchy = VertexHierarchy {
             nodes,
             positions,
             roots,
@@ -407,7 +344,12 @@ impl Head {
             flat_faces,
             cut_points: self.counts.cut_points as usize,
             missing: MissingBlocks::new(roots, errors),
-        })
+            rows: VertexRows::zeros(self.layouts.clone(), vertices as usize),
+            name: self.name.clone(),
+        };
+        hierarchy.read_rows(&mut reader, 0..roots)?;
+        reader.finish()?;
+        Ok(hierarchy)
     }
 
     /// Puts a block of points into the hierarchy; `bytes` are its own.
@@ -455,7 +397,7 @@ impl Head {
             node.cone = PackedCone::from_bits(u32::from_le_bytes(reader.bytes()?));
             hierarchy.source_vertices[point as usize] = reader.below(u32::MAX)?;
         }
-        for point in there {
+        for point in there.clone() {
             let [flags] = reader.bytes()?;
             if flags >= 0x40 {
                 return Err(reader.damaged());
@@ -474,6 +416,7 @@ impl Head {
                 }
             }
         }
+        hierarchy.read_rows(&mut reader, there)?;
         reader.finish()?;
         hierarchy.missing.read(block);
         Ok(())
@@ -494,13 +437,17 @@ pub(super) fn reseal(bytes: &mut [u8]) {
     };
     let mut reader = FieldReader::new(head, 0);
     let mut places = Vec::new();
-    for _ in 0..6 {
-        if reader.number().is_err() {
-            return;
+    let mut counts = [0; 6];
+    for count in &mut counts {
+        match reader.number() {
+            Ok(found) => *count = found,
+            Err(_) => return,
         }
     }
-    while let Ok(length) = reader.number() {
-        places.push((head.len() - reader.rest.len(), length));
+    let leaving = counts[0].saturating_sub(counts[1]);
+    for _ in 0..=leaving.div_ceil(BLOCK_POINTS.into()) {
+        let Ok(length) = reader.number() else { break };
+        places.push((head.len() - reader.left(), length));
         if reader.bytes::<8>().is_err() {
             break;
         }

@@ -10,7 +10,7 @@ use super::hierarchy::VertexHierarchy;
 use super::loader::BlockLoader;
 use super::stored::{FRONT_BYTES, Head};
 use super::view::CameraView;
-use crate::bits::DecodeError;
+use crate::bits::{DecodeError, DecodeErrorKind};
 use crate::limits::Limits;
 
 /// A [`Front`] of a `.mwl` file: points are read in blocks when a view needs one of them.
@@ -42,11 +42,35 @@ pub enum HierarchyError {
     Decode(DecodeError),
 }
 
+/// What to do about damage.
+const CURE: &str = "copy it once more, or build it from the mesh with `meshweft lod build`";
+
 impl fmt::Display for HierarchyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Read(error) => error.fmt(f),
-            Self::Decode(error) => error.fmt(f),
+            Self::Decode(DecodeError { byte, kind }) => match kind {
+                DecodeErrorKind::NoHierarchy => {
+                    write!(
+                        f,
+                        "byte {byte}: this is not a .mwl file: give one that `meshweft lod build` wrote"
+                    )
+                }
+                DecodeErrorKind::EndsEarly => write!(
+                    f,
+                    "byte {byte}: what the file says does not agree with its length: {CURE}"
+                ),
+                DecodeErrorKind::Unknown { what, found } => write!(
+                    f,
+                    "byte {byte}: {what} {found} is not known. A later version of meshweft may have written the file: update \
+                     meshweft, or {CURE}"
+                ),
+                DecodeErrorKind::AboveLimit { what, said, limit } => write!(
+                    f,
+                    "byte {byte}: the file has {said} {what}, and {limit} are allowed: if you trust it, raise the limit"
+                ),
+                _ => write!(f, "byte {byte}: the file is damaged: {CURE}"),
+            },
         }
     }
 }
@@ -202,21 +226,16 @@ impl VertexHierarchy {
     /// The whole hierarchy from the bytes of a `.mwl` file.
     ///
     /// # Errors
-    /// [`DecodeError`] if they are not a hierarchy, are cut, have changed, or have more than is allowed.
+    /// [`HierarchyError`] if they are not a hierarchy, are cut, have changed, or have more than is allowed.
     ///
     /// # Complexity
     /// Time O(vertices), space about five times the bytes.
-    pub fn from_bytes(bytes: &[u8], limits: Limits) -> Result<Self, DecodeError> {
-        let whole = |error| match error {
-            HierarchyError::Decode(error) => error,
-            // Nothing else fails in memory.
-            HierarchyError::Read(_) => DecodeError::ends_early(bytes.len()),
-        };
-        let mut file = BlockFile::open(io::Cursor::new(bytes), limits).map_err(whole)?;
-        file.read(0).map_err(whole)?;
+    pub fn from_bytes(bytes: &[u8], limits: Limits) -> Result<Self, HierarchyError> {
+        let mut file = BlockFile::open(io::Cursor::new(bytes), limits)?;
+        file.read(0)?;
         let mut hierarchy = file.head.hierarchy(&file.buffer)?;
         for block in 0..file.head.blocks.len() - 1 {
-            file.load(block, &mut hierarchy).map_err(whole)?;
+            file.load(block, &mut hierarchy)?;
         }
         Ok(hierarchy)
     }

@@ -21,7 +21,8 @@ pub struct Camera {
     pub size: [u32; 2],
 }
 
-/// What of a mesh has to be drawn exactly: made of a [`Camera`], for [`Front::update`](super::Front::update).
+/// What of a mesh has to be drawn exactly: made of a [`Camera`], or of a length alone, for
+/// [`Front::update`](super::Front::update).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraView {
     eye: [f64; 3],
@@ -30,6 +31,8 @@ pub struct CameraView {
     /// How far the eye has to be from an error of length 1 that may just be seen.
     reach: f64,
     sees_back_faces: bool,
+    /// Without an eye: errors up to this length may stay, wherever they are.
+    everywhere: Option<f64>,
 }
 
 /// Why a camera cannot be used.
@@ -113,6 +116,7 @@ impl Camera {
             sides: Some(sides),
             reach,
             sees_back_faces: false,
+            everywhere: None,
         })
     }
 }
@@ -127,6 +131,42 @@ fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 impl CameraView {
+    /// A view without an eye: whatever has an error above a length, in units of the positions, has to be finer, wherever it
+    /// is. Below 0 that is everything.
+    ///
+    /// ```
+    /// use meshweft::Mesh;
+    /// use meshweft::lod::fast_mesh::{CameraView, FastMesh, Front};
+    /// // Waves over a square of 8 by 8 cells.
+    /// let place = |i: u16| [i % 9, i / 9].map(f32::from);
+    /// let positions = (0..81).map(place).map(|[x, y]| [x, y, x.sin() * y.cos()]);
+    /// let cell = |i: u32| [[i, i + 1, i + 9], [i + 9, i + 1, i + 10]];
+    /// let faces = (0..72).filter(|i| i % 9 != 8).flat_map(cell);
+    /// let mesh = Mesh::new(positions.collect::<Vec<_>>(), faces.collect::<Vec<_>>())?;
+    ///
+    /// let mut front = Front::new(FastMesh::default().build(&mesh, &[])?);
+    /// front.update(&CameraView::of_errors_above(0.5)?, 1.0);
+    /// assert!(front.face_count() < 128 && front.largest_error_left() <= 0.5);
+    /// front.update(&CameraView::of_errors_above(-1.0)?, 1.0);
+    /// assert_eq!(front.face_count(), 128);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ViewError::NotFinite`] if the length is not finite.
+    pub fn of_errors_above(length: f64) -> Result<Self, ViewError> {
+        match length.is_finite() {
+            true => Ok(Self {
+                eye: [0.0; 3],
+                sides: None,
+                reach: f64::INFINITY,
+                sees_back_faces: true,
+                everywhere: Some(length),
+            }),
+            false => Err(ViewError::NotFinite),
+        }
+    }
+
     /// The same, but all around the eye: what is outside of the picture is drawn as exactly as what is inside.
     #[must_use]
     pub fn all_around(self) -> Self {
@@ -149,6 +189,7 @@ impl CameraView {
     pub(super) fn with_tolerance(self, factor: f64) -> Self {
         Self {
             reach: self.reach / factor,
+            everywhere: self.everywhere.map(|length| length * factor),
             ..self
         }
     }
@@ -159,6 +200,9 @@ impl CameraView {
     #[inline]
     pub(super) fn needs(&self, bound: &DetailBound) -> bool {
         let error = f64::from(bound.error);
+        if let Some(length) = self.everywhere {
+            return error > length;
+        }
         let radius = f64::from(bound.radius);
         let way = sub(bound.center.map(f64::from), self.eye);
         let square = dot(way, way);
@@ -179,6 +223,15 @@ impl CameraView {
             excess: 0.0,
             error: bound.error,
         };
+        if let Some(length) = self.everywhere {
+            let error = f64::from(bound.error);
+            let excess = match length > 0.0 {
+                true => error / length,
+                false if error > length => f64::INFINITY,
+                false => 0.0,
+            };
+            return Urgency { excess, ..hidden };
+        }
         let anyhow = Self {
             reach: f64::INFINITY,
             ..*self

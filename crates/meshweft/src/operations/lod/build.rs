@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::loading::{joined, no_faces};
+use super::loading::{JoinedMesh, joined, no_faces};
 use super::options::LodError;
 use super::read_back;
+use crate::attribute::{AttributeInfo, Domain, Semantic};
 use crate::files::{Document, Note};
 use crate::lod::fast_mesh::FastMesh;
 use crate::operations::json;
@@ -18,6 +19,8 @@ use crate::operations::losses::{self, Losses};
 pub struct LodBuildOptions {
     /// Leave out whatever the file cannot hold; a document that has such is refused otherwise.
     pub drop_attributes: bool,
+    /// Leave out the attributes of vertices too, and all else that is not a position or a face.
+    pub positions_only: bool,
 }
 
 /// What [`lod_build`] did. The caller may add where it went and the time it took.
@@ -48,6 +51,8 @@ pub struct LodBuildReport {
     pub cut_points: usize,
     /// Faces that are left out because two of their corners are at one place: they draw nothing.
     pub flat_faces: usize,
+    /// What else is stored with each vertex.
+    pub attributes: Vec<AttributeInfo>,
     /// What the reader of the file says.
     pub notes: Vec<Note>,
 }
@@ -71,21 +76,32 @@ impl LodBuildReport {
             ("depth", json!(self.depth)),
             ("cut_points", json!(self.cut_points)),
             ("flat_faces", json!(self.flat_faces)),
+            ("attributes", names(&self.attributes)),
             ("notes", json::notes(&self.notes)),
         ];
         report.extend(members.map(|(name, value)| (name.to_owned(), value)));
-        serde_json::Value::Object(report).to_string()
+        Value::Object(report).to_string()
     }
+}
+
+/// What attributes are called.
+pub(super) fn names(attributes: &[AttributeInfo]) -> Value {
+    let names = attributes.iter().map(|info| match info.morph_target {
+        None => info.semantic.to_string(),
+        Some(target) => format!("{} of morph target {target}", info.semantic),
+    });
+    Value::Array(names.map(Value::String).collect())
 }
 
 /// Makes the bytes of a `.mwl` file: all meshes of a document as one, with every level of detail, as a
 /// [`StreamedFront`](crate::lod::fast_mesh::StreamedFront) reads them. They are read back, and full detail is compared with the
 /// document.
 ///
-/// A document that holds more than positions and faces is refused, unless the options say that the rest is left out:
-/// attributes, polygons, names and borders of several meshes, what is said of some faces only (groups, materials), lines, nodes with
-/// a place, everything that is not known. Positions are as the file stores them. What no face needs is left out:
-/// vertices that none uses, faces with two corners at one place.
+/// The file has positions and faces, and the attributes of vertices if all meshes have the same ones, bit for bit. A document that holds
+/// more is refused, unless the options say that the rest is left out: attributes of corners and faces, polygons, names and borders
+/// of several meshes, what is said of some faces only (groups, materials), lines, nodes with a place, everything that is not known.
+/// Positions are as the file stores them. What no face needs is left out: vertices that none uses, faces with two corners at one
+/// place.
 ///
 /// # Errors
 /// [`LodError`]: there are no faces or no positions, some are not read, or there is more than these.
@@ -109,9 +125,14 @@ pub fn lod_build(
     options: &LodBuildOptions,
 ) -> Result<(Vec<u8>, LodBuildReport), LodError> {
     let file = || document.path().to_owned();
-    check(document, options)?;
-    let mesh = joined(document)?;
-    let hierarchy = FastMesh::default().build(&mesh, &[]);
+    let kept = match options.positions_only {
+        true => Vec::new(),
+        false => attributes_of_all(document),
+    };
+    check(document, options, &kept)?;
+    let JoinedMesh { mesh, attributes } = joined(document, &kept)?;
+    let hierarchy = FastMesh::default().build(&mesh, &attributes);
+    let hierarchy = hierarchy.and_then(|it| it.with_attributes(&attributes));
     let hierarchy = hierarchy.map_err(|error| LodError::Mesh {
         file: file(),
         error,
@@ -121,6 +142,10 @@ pub fn lod_build(
         return Err(no_faces(document));
     }
 
+    let hierarchy = match document.meshes() {
+        [only] => hierarchy.with_name(&only.name),
+        _ => hierarchy,
+    };
     let bytes = hierarchy.to_bytes();
     let mut report = LodBuildReport {
         file: file(),
@@ -135,17 +160,45 @@ pub fn lod_build(
         depth: hierarchy.depth(),
         cut_points: hierarchy.cut_points(),
         flat_faces,
+        attributes: hierarchy.attributes().to_vec(),
         notes: document.notes().to_vec(),
     };
     // Both would be large.
     drop(hierarchy);
-    report.roots = read_back::roots_if_same(&mesh, &bytes)
+    report.roots = read_back::roots_if_same(&mesh, &attributes, &bytes)
         .ok_or_else(|| LodError::NotVerified { file: file() })?;
     Ok((bytes, report))
 }
 
-/// Whether everything of a document can be in the file, but for what the options leave out.
-fn check(document: &Document, options: &LodBuildOptions) -> Result<(), LodError> {
+/// The attributes of vertices that all meshes with faces have; none if one has others.
+fn attributes_of_all(document: &Document) -> Vec<AttributeInfo> {
+    let entries = document.meshes().iter().enumerate();
+    let with_faces = entries.filter(|(_, entry)| entry.mesh.face_count() > 0);
+    let mut each = with_faces.map(|(number, _)| {
+        let is_place = |info: &AttributeInfo| {
+            info.semantic == Semantic::Position && info.morph_target.is_none()
+        };
+        let mut attributes = document.attributes(number);
+        attributes.retain(|info| info.domain == Domain::Vertex && !is_place(info));
+        attributes.sort_by(|a, b| {
+            let key = |info: &AttributeInfo| (info.morph_target, info.semantic.clone());
+            key(a).cmp(&key(b))
+        });
+        attributes
+    });
+    let first = each.next().unwrap_or_default();
+    match each.all(|other| other == first) {
+        true => first,
+        false => Vec::new(),
+    }
+}
+
+/// Whether everything of a document can be in the file, with the attributes that are kept, but for what the options leave out.
+fn check(
+    document: &Document,
+    options: &LodBuildOptions,
+    kept: &[AttributeInfo],
+) -> Result<(), LodError> {
     let file = || document.path().to_owned();
     let entries = document.meshes();
     let unread = entries.iter().find(|entry| entry.has_other_faces);
@@ -153,11 +206,11 @@ fn check(document: &Document, options: &LodBuildOptions) -> Result<(), LodError>
     if let Some(mesh) = losses::unread_outside(document).or(unread) {
         return Err(LodError::UnreadFaces { file: file(), mesh });
     }
-    if options.drop_attributes {
+    if options.drop_attributes || options.positions_only {
         return Ok(());
     }
 
-    let mut lost = Losses::of(document, |_, _| false)?;
+    let mut lost = Losses::of(document, |_, info| kept.contains(info))?;
     let others = &mut lost.others;
     if entries.len() > 1 {
         others.push(format!("{} meshes, which become one", entries.len()));

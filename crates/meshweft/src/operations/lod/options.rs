@@ -8,7 +8,7 @@ use super::paths::CameraPath;
 use crate::attribute::AttributeInfo;
 use crate::error::MeshError;
 use crate::files::FileError;
-use crate::lod::fast_mesh::ViewError;
+use crate::lod::fast_mesh::{HierarchyError, ViewError};
 use crate::lod::geometry_cache::{Eviction, GeometryCacheError};
 use crate::operations::losses;
 
@@ -190,6 +190,24 @@ pub enum LodError {
         /// The mesh.
         mesh: String,
     },
+    /// A file is longer than is allowed.
+    TooLong {
+        /// The file.
+        file: PathBuf,
+        /// Its length.
+        bytes: u64,
+        /// What is allowed.
+        limit: u64,
+    },
+    /// The coarsest mesh of a file has more vertices than are asked for.
+    TooFewVertices {
+        /// The file.
+        file: PathBuf,
+        /// How many are asked for.
+        asked: usize,
+        /// How many the coarsest mesh has.
+        least: usize,
+    },
     /// What was made does not give the mesh back: a fault of this library.
     NotVerified {
         /// The file.
@@ -199,6 +217,15 @@ pub enum LodError {
     Cache(GeometryCacheError),
     /// The document cannot be read.
     File(FileError),
+    /// A `.mwl` file cannot be read, or is not sound.
+    Stored {
+        /// The file.
+        file: PathBuf,
+        /// The frame that needed what cannot be read; `None` before the first one.
+        frame: Option<usize>,
+        /// What is wrong, and at which byte.
+        error: HierarchyError,
+    },
 }
 
 impl fmt::Display for LodError {
@@ -228,11 +255,22 @@ impl fmt::Display for LodError {
                 others,
             } => write!(
                 f,
-                "{}: a .mwl file has positions and faces, and {}. Leave them out with drop_attributes",
+                "{}: a .mwl file has positions, faces and attributes that all vertices have, and {}. Leave them out with \
+                 drop_attributes",
                 file.display(),
                 losses::told(attributes, others)
             ),
             Self::UnreadFaces { file, mesh } => losses::write_unread(f, file, mesh, "built"),
+            Self::TooLong { file, bytes, limit } => write!(
+                f,
+                "{}: {bytes} bytes, more than the limit of {limit}: allow more with max_bytes",
+                file.display()
+            ),
+            Self::TooFewVertices { file, asked, least } => write!(
+                f,
+                "{}: there is no mesh of {asked} vertices or fewer: the coarsest has {least}, so give {least} or more",
+                file.display()
+            ),
             Self::NotVerified { file } => write!(
                 f,
                 "{}: the file that was made does not give the mesh back, so nothing is written. This is a fault of meshweft: \
@@ -241,6 +279,13 @@ impl fmt::Display for LodError {
             ),
             Self::Cache(error) => error.fmt(f),
             Self::File(error) => error.fmt(f),
+            Self::Stored { file, frame, error } => {
+                write!(f, "{}: ", file.display())?;
+                if let Some(frame) = frame {
+                    write!(f, "frame {frame}: ")?;
+                }
+                error.fmt(f)
+            }
         }
     }
 }
