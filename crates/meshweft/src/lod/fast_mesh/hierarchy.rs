@@ -1,10 +1,12 @@
 //! The vertex hierarchy: what is known of each vertex before there is a camera.
 
 use super::cone::PackedCone;
+use super::full_detail::FullDetail;
 use super::links::Edge;
 use super::missing::MissingBlocks;
 use super::rows::VertexRows;
 use super::view::DetailBound;
+use crate::geometry::Ball;
 use crate::index::index32;
 use crate::topology::half_edges::{HalfEdges, NONE};
 
@@ -39,6 +41,7 @@ pub struct VertexHierarchy {
     pub(super) rows: VertexRows,
     /// That of the mesh.
     pub(super) name: String,
+    pub(super) full: FullDetail,
 }
 
 /// What is known of the collapse of a point, and what of those into it.
@@ -81,6 +84,19 @@ impl VertexHierarchy {
     #[must_use]
     pub fn source_vertices(&self) -> &[u32] {
         &self.source_vertices
+    }
+
+    /// The smallest ball that has all vertices in it; `None` if there is no vertex with finite coordinates. It is known before the
+    /// vertices of a file are read.
+    #[must_use]
+    pub fn ball(&self) -> Option<Ball> {
+        self.full.ball
+    }
+
+    /// How many faces there are at full detail: those of the input without the [flat](Self::flat_faces) ones.
+    #[must_use]
+    pub fn face_count(&self) -> usize {
+        self.full.face_count as usize
     }
 
     /// How many points there are, and how many of them never leave.

@@ -35,6 +35,7 @@ mod deviation;
 mod errors_above_tests;
 mod fields;
 mod front;
+mod full_detail;
 mod hierarchy;
 mod links;
 mod loader;

@@ -2,6 +2,7 @@
 
 use std::cmp::Reverse;
 
+use super::full_detail::FullDetail;
 use super::hierarchy::{HierarchyNode, VertexHierarchy};
 use super::missing::MissingBlocks;
 use super::replay::{Made, Replay};
@@ -46,12 +47,14 @@ pub(super) fn finish(mut replay: Replay<'_>) -> VertexHierarchy {
     };
     let (edges, root_faces) = edges(&replay, &new_vertices);
     let flags = replay.made.iter().map(|it| it.flags);
+    let positions: Vec<[f32; 3]> = old_points
+        .iter()
+        .map(|&old| positions[old as usize])
+        .collect();
     VertexHierarchy {
         nodes: old_points.iter().map(node).collect(),
-        positions: old_points
-            .iter()
-            .map(|&old| positions[old as usize])
-            .collect(),
+        full: FullDetail::new(&positions, replay.edges.len() / 3),
+        positions,
         roots,
         side_points,
         root_faces,

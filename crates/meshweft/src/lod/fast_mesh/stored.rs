@@ -4,11 +4,11 @@
 //! |---|---|
 //! | magic `MWLD`, version 1 | 5 |
 //! | length of the head, CRC-32 of the head | 4 + 4, little-endian |
-//! | head: numbers, see [`StoredCounts`], then for each block its length, its CRC-32 and the largest error in it, then what attributes are, and a name: see [`stored_rows`] | |
+//! | head: numbers, see [`StoredCounts`], faces at full detail, the ball around all points, then for each block its length, its CRC-32 and the largest error in it, then what attributes are, and a name: see [`stored_rows`] | |
 //! | block 0: the roots and the faces that never leave | |
 //! | blocks 1, 2 …: 256 points each, from coarse to fine | |
 //!
-//! Numbers are varints, seven bits a byte, lowest first; positions, errors and radii are `f32`, little-endian. In a block each
+//! Numbers are varints, seven bits a byte, lowest first; positions, errors and radii are `f32`, the ball is four `f64`, little-endian. In a block each
 //! field has all its points one after the other, and last come the rows of their vertices. Points and half-edges are stored as
 //! differences with a sign from that to which they belong, plus one: 0 stands for none.
 
@@ -16,6 +16,7 @@ use std::ops::Range;
 
 use super::cone::PackedCone;
 use super::fields::{FieldReader, put_difference, put_f32s};
+use super::full_detail::FullDetail;
 use super::hierarchy::{HierarchyNode, VertexHierarchy};
 use super::missing::{BLOCK_POINTS, MissingBlocks};
 use super::rows::{VertexRows, size_of};
@@ -26,7 +27,7 @@ use crate::index::index32;
 use crate::limits::Limits;
 use crate::topology::half_edges::{HalfEdge, HalfEdges, NONE};
 
-const MAGIC: [u8; 4] = *b"MWLD";
+pub(super) const MAGIC: [u8; 4] = *b"MWLD";
 const VERSION: u8 = 1;
 /// Magic, version, length and checksum of the head.
 pub(super) const FRONT_BYTES: usize = 13;
@@ -58,6 +59,7 @@ pub(super) struct BlockEntry {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Head {
     pub(super) counts: StoredCounts,
+    pub(super) full: FullDetail,
     /// That of the roots, then those of the other points.
     pub(super) blocks: Vec<BlockEntry>,
     /// What the rows of vertices are.
@@ -91,9 +93,16 @@ impl VertexHierarchy {
             self.source_vertices.len(),
             self.cut_points,
             self.flat_faces.len(),
+            self.face_count(),
         ] {
             varint::write(&mut head, number as u64);
         }
+        head.extend(
+            self.full
+                .ball_numbers()
+                .map(f64::to_le_bytes)
+                .as_flattened(),
+        );
         for (block, error) in blocks.iter().zip(errors) {
             varint::write(&mut head, block.len() as u64);
             head.extend(crc32(block).to_le_bytes());
@@ -228,6 +237,14 @@ impl Head {
             cut_points: count("points", points)?,
             flat_faces: count("faces", MOST_POINTS)?,
         };
+        let slots = counts.root_faces + 2 * (points - counts.roots);
+        let faces = reader.below(1 + slots)?;
+        let mut ball = [0.0; 4];
+        for number in &mut ball {
+            *number = f64::from_le_bytes(reader.bytes()?);
+        }
+        let full = FullDetail::from_numbers(faces, ball);
+        let full = full.ok_or_else(|| reader.damaged())?;
         if counts.vertices < counts.points {
             return Err(reader.damaged());
         }
@@ -262,6 +279,7 @@ impl Head {
         reader.finish()?;
         Ok(Self {
             counts,
+            full,
             blocks,
             layouts,
             name,
@@ -343,6 +361,7 @@ impl Head {
             source_vertices,
             flat_faces,
             cut_points: self.counts.cut_points as usize,
+            full: self.full,
             missing: MissingBlocks::new(roots, errors),
             rows: VertexRows::zeros(self.layouts.clone(), vertices as usize),
             name: self.name.clone(),
@@ -443,6 +462,9 @@ pub(super) fn reseal(bytes: &mut [u8]) {
             Ok(found) => *count = found,
             Err(_) => return,
         }
+    }
+    if reader.number().is_err() || reader.bytes::<32>().is_err() {
+        return;
     }
     let leaving = counts[0].saturating_sub(counts[1]);
     for _ in 0..=leaving.div_ceil(BLOCK_POINTS.into()) {

@@ -2,14 +2,28 @@
 
 use std::io::Cursor;
 
+use super::full_detail::FullDetail;
 use super::tests::{camera, examples};
 use super::{Camera, FastMesh, FrameBudget, Front, HierarchyError, StreamedFront, VertexHierarchy};
+use crate::geometry::Ball;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
 use crate::random::{SplitMix64, from_environment};
 
 fn faces(front: &Front) -> std::collections::BTreeMap<u32, [u32; 3]> {
     front.faces().collect()
+}
+
+/// The ball around all vertices that a face with three different places has.
+fn ball_of_faces(mesh: &Mesh) -> Option<Ball> {
+    let place = |&vertex: &u32| mesh.positions()[vertex as usize].map(f64::from);
+    let is_flat = |face: &&[u32; 3]| {
+        let [a, b, c] = [0, 1, 2].map(|corner| place(&face[corner]));
+        a == b || b == c || c == a
+    };
+    let faces = mesh.faces().iter().filter(|face| !is_flat(face));
+    let places: Vec<[f64; 3]> = faces.flatten().map(place).collect();
+    Ball::around(places.into_iter())
 }
 
 #[test]
@@ -22,6 +36,8 @@ fn hierarchies_come_back() {
         assert!(back.to_bytes() == bytes, "{name}");
         assert_eq!(back.source_vertices(), hierarchy.source_vertices());
         assert_eq!(back.flat_faces(), hierarchy.flat_faces());
+        assert_eq!(back.ball(), hierarchy.ball());
+        assert_eq!(back.face_count(), hierarchy.face_count());
 
         let (mut one, mut other) = (Front::new(hierarchy), Front::new(back));
         for _ in 0..10 {
@@ -31,6 +47,14 @@ fn hierarchies_come_back() {
         one.refine_fully();
         other.refine_fully();
         assert!(faces(&one) == faces(&other), "{name}");
+        assert_eq!(one.face_count(), one.hierarchy().face_count());
+        let found = one.hierarchy().ball().unwrap();
+        let expected = ball_of_faces(&mesh).unwrap();
+        // The order of the points decides how it is rounded.
+        let is_near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * expected.radius;
+        assert!(is_near(found.radius, expected.radius), "{name}");
+        let mut centers = found.center.into_iter().zip(expected.center);
+        assert!(centers.all(|(a, b)| is_near(a, b)), "{name}");
     }
 }
 
@@ -100,6 +124,25 @@ fn an_empty_mesh_has_a_hierarchy() {
         front.refine_fully();
         let flat = front.hierarchy().flat_faces().len();
         assert_eq!(front.face_count() + flat, mesh.face_count());
+        assert_eq!(front.face_count(), front.hierarchy().face_count());
+    }
+    let hierarchy = FastMesh::default().build(&Mesh::default(), &[]).unwrap();
+    assert_eq!(hierarchy.ball(), None);
+    let back = VertexHierarchy::from_bytes(&hierarchy.to_bytes(), Limits::default()).unwrap();
+    assert_eq!((back.ball(), back.face_count()), (None, 0));
+}
+
+#[test]
+fn numbers_that_are_not_a_ball_are_refused() {
+    let numbers = [1.0, 2.0, 3.0, 4.0];
+    assert_eq!(
+        FullDetail::from_numbers(7, numbers).unwrap().ball_numbers(),
+        numbers
+    );
+    for (place, number) in [(3, -2.0), (3, f64::NAN), (0, f64::INFINITY), (3, -1.0)] {
+        let mut wrong = numbers;
+        wrong[place] = number;
+        assert_eq!(FullDetail::from_numbers(7, wrong), None);
     }
 }
 
