@@ -82,11 +82,8 @@ impl GeometryCache {
             let count = errors.len();
             return Err(GeometryCacheError::Vertices { count });
         }
-        let is_error = |error: &f32| *error >= 0.0;
-        if let Some(vertex) = errors.iter().position(|error| !is_error(error)) {
-            let error = errors[vertex];
-            return Err(GeometryCacheError::Error { vertex, error });
-        }
+        let mut all = errors.iter().enumerate();
+        all.try_for_each(|(vertex, &error)| check_error(vertex, error))?;
 
         let front = NumberSet::new(errors.len());
         Ok(Self {
@@ -116,6 +113,20 @@ impl GeometryCache {
     pub fn with_gap(mut self, slots: u32) -> Self {
         self.upload.ranges.gap = slots;
         self
+    }
+
+    /// Another error for a vertex, for where errors are not all known in the beginning: until then any number will do.
+    ///
+    /// A policy is told the error of a vertex when its slot opens. So it counts from the next time on that the vertex leaves the front;
+    /// give it before the frame that adds the vertex, and it is as if it had been known from the beginning.
+    ///
+    /// # Errors
+    /// If the vertex does not exist, or the error is negative or not a number; everything is then as it was.
+    pub fn set_error(&mut self, vertex: u32, error: f32) -> Result<(), GeometryCacheError> {
+        self.check("vertices with an error", &[vertex])?;
+        check_error(vertex as usize, error)?;
+        self.table.errors[vertex as usize] = error;
+        Ok(())
     }
 
     /// The next frame, of an implicit front: exactly these vertices are active. One that is named twice counts once.
@@ -392,6 +403,13 @@ fn insert_missing(table: &mut SlotTable, vertices: &[u32], inserts: &mut Vec<Ins
     }
     for insert in inserts {
         insert.slot = table.insert(insert.vertex);
+    }
+}
+
+fn check_error(vertex: usize, error: f32) -> Result<(), GeometryCacheError> {
+    match error >= 0.0 {
+        true => Ok(()),
+        false => Err(GeometryCacheError::Error { vertex, error }),
     }
 }
 

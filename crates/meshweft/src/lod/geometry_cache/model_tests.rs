@@ -204,6 +204,44 @@ fn every_policy_decides_as_its_model() {
 }
 
 /// Both kinds of front, fed with the same frames in the same order, decide alike.
+/// Errors that are given one by one, before a vertex is added for the first time, count as if all had been known.
+#[test]
+fn errors_may_come_later() {
+    let random = &mut SplitMix64(5);
+    let half = Eviction::queued_by_error(50, 2);
+    for eviction in Eviction::ALL.into_iter().chain([half]) {
+        let (slots, vertices) = (20, 70);
+        let errors = errors(vertices, random);
+        let mut known = GeometryCache::new(slots, errors.clone(), eviction).unwrap();
+        let mut told = GeometryCache::new(slots, vec![0.0; vertices], eviction).unwrap();
+        let mut is_other = false;
+        let mut untold = GeometryCache::new(slots, vec![0.0; vertices], eviction).unwrap();
+        let mut active: Vec<u32> = Vec::new();
+        for _ in 0..200 {
+            active = distinct(&next_active(&active, slots, vertices, random));
+            for &vertex in &active {
+                told.set_error(vertex, errors[vertex as usize]).unwrap();
+            }
+            let expected = known.set_active(&active).unwrap().inserts();
+            assert_eq!(told.set_active(&active).unwrap().inserts(), expected);
+            is_other |= untold.set_active(&active).unwrap().inserts() != expected;
+        }
+        let is_by_error = [Eviction::FinestFirst, half].contains(&eviction);
+        assert!(!is_by_error || is_other, "{eviction}");
+    }
+
+    let mut cache = GeometryCache::new(3, vec![1.0; 4], Eviction::FinestFirst).unwrap();
+    let error = cache.set_error(4, 1.0).unwrap_err();
+    assert!(matches!(
+        error,
+        GeometryCacheError::Vertex { vertex: 4, .. }
+    ));
+    for wrong in [-1.0, f32::NAN] {
+        let error = cache.set_error(2, wrong).unwrap_err();
+        assert!(matches!(error, GeometryCacheError::Error { vertex: 2, .. }));
+    }
+}
+
 #[test]
 fn an_implicit_front_is_an_explicit_one() {
     for eviction in Eviction::ALL {

@@ -12,7 +12,7 @@ pub(super) struct SlotTable {
     slot_of: Vec<u32>,
     slots: Vec<Slot>,
     /// Of each vertex the error of its level of detail.
-    errors: Vec<f32>,
+    pub(super) errors: Vec<f32>,
     policy: Box<dyn SlotPolicy>,
     pub(super) frame: u32,
     /// How often the policy named a slot that was not open.
