@@ -4,7 +4,7 @@ use std::fmt;
 
 use anyhow::Error;
 use meshweft::files::{FileError, FileErrorKind};
-use meshweft::operations::{CompressError, CullError};
+use meshweft::operations::{CompressError, CullError, LodError};
 
 /// What the command line asks for cannot be done; exit code 2.
 #[derive(Debug)]
@@ -42,7 +42,11 @@ pub(crate) fn message(error: &Error) -> String {
         }
         _ => {}
     }
-    match error.downcast_ref().map(|error: &FileError| &error.kind) {
+    let of_file = match error.downcast_ref() {
+        Some(LodError::File(error)) => Some(error),
+        _ => error.downcast_ref::<FileError>(),
+    };
+    match of_file.map(|error| &error.kind) {
         Some(FileErrorKind::Unknown { name, .. }) => format!(
             "{text}. Leave out --strict to keep what it may depend on, or say \
              --assume-order-safe {name} if it does not"

@@ -11,7 +11,7 @@ use meshweft::operations::{
     self, ExtractedMesh, LodDetail, LodExtractOptions, LodExtractReport, LodWalkOptions,
 };
 
-use super::walk::{cameras, picture_size};
+use super::cameras;
 use crate::run::arguments::Size;
 use crate::run::output::Report;
 use crate::usage::Usage;
@@ -41,7 +41,7 @@ pub(super) struct Extract {
     #[arg(long, value_name = "PIXELS", conflicts_with_all = ["error", "vertices"], display_order = 2)]
     tolerance: Option<f64>,
     /// The picture, in pixels [default: 800x800]
-    #[arg(long, value_name = "WxH", conflicts_with_all = ["error", "vertices"], value_parser = picture_size, display_order = 2)]
+    #[arg(long, value_name = "WxH", conflicts_with_all = ["error", "vertices"], value_parser = cameras::picture_size, display_order = 2)]
     size: Option<[u32; 2]>,
     /// Write positions and faces alone
     #[arg(long, display_order = 3)]
@@ -65,7 +65,8 @@ impl Extract {
             return Ok(LodDetail::Vertices(self.vertices.unwrap_or_default()));
         };
         let usual = LodWalkOptions::default();
-        let all = cameras(path, &self.limits, self.size.unwrap_or(usual.size))?;
+        let size = self.size.unwrap_or(usual.size);
+        let all = cameras::of_file(path, size, self.limits.limits())?;
         let frame = self.frame.unwrap_or_default();
         let camera = *all.get(frame).ok_or_else(|| {
             let last = all.len() - 1;

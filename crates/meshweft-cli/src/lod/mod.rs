@@ -1,7 +1,9 @@
 //! `lod`: detail that follows the eye.
 
 mod build;
+mod cameras;
 mod extract;
+mod verify;
 mod walk;
 
 use anyhow::Result;
@@ -9,6 +11,7 @@ use clap::{Args, Subcommand};
 
 use build::Build;
 use extract::Extract;
+use verify::Verify;
 use walk::Walk;
 
 #[derive(Debug, Args)]
@@ -44,9 +47,11 @@ enum Verb {
     ///
     /// The mesh is refined where its error could be seen and coarsened elsewhere, frame by frame. Its active vertices are
     /// kept in the slots of a vertex buffer, its faces in an index buffer that is patched. All meshes of the file are one here,
-    /// with their positions as the file stores them. Nothing is written.
+    /// with their positions as the file stores them. Only positions and faces count. No mesh is written. Of a .mwl file only what
+    /// the path needs is read; all else is counted as for the mesh of which it was made.
     ///
     ///   meshweft lod walk scan.ply
+    ///   meshweft lod walk scan.mwl --path zoom
     ///   meshweft lod walk scan.ply --path fly --tolerance .5 --slots 32768 --policy lru --optimum
     ///   meshweft lod walk scan.ply --path cameras.json --json --plot frames.svg
     ///
@@ -54,6 +59,17 @@ enum Verb {
     /// `{"fov":45,"frames":[{"eye":[0,0,9],"target":[0,0,0],"up":[0,1,0]}]}`
     #[command(verbatim_doc_comment)]
     Walk(Walk),
+    /// Measure how far what is drawn is from the mesh at full detail
+    ///
+    /// In some frames of a path every vertex at full detail that is in the picture and faces the eye is measured: its distance to
+    /// the nearest point of the drawn faces, in the picture, over the tolerance. Nothing is estimated. A face is turned if it
+    /// looks against the mean of the normals that its vertices have at full detail. Nothing is written.
+    ///
+    ///   meshweft lod verify scan.ply
+    ///   meshweft lod verify scan.mwl --path zoom --frames 20 --tolerance .5
+    ///   meshweft lod verify scan.ply --path cameras.json --min-share 99.9 --max-error 2.5 --json
+    #[command(verbatim_doc_comment)]
+    Verify(Verify),
 }
 
 pub(crate) fn run(arguments: &Lod) -> Result<()> {
@@ -61,5 +77,6 @@ pub(crate) fn run(arguments: &Lod) -> Result<()> {
         Verb::Build(arguments) => build::run(arguments),
         Verb::Extract(arguments) => extract::run(arguments),
         Verb::Walk(arguments) => walk::run(arguments),
+        Verb::Verify(arguments) => verify::run(arguments),
     }
 }

@@ -1,17 +1,17 @@
 //! `lod walk`: what each frame of a path costs.
 
 use std::fs;
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
-use meshweft::files::{Document, ReadOptions};
+use meshweft::files::ReadOptions;
 use meshweft::operations::{
-    self, Camera, CameraPath, Eviction, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
+    self, Eviction, LodSource, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
 };
 
+use super::cameras;
 use crate::columns::columns;
 use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::Size;
@@ -22,7 +22,7 @@ use crate::usage::Usage;
 
 #[derive(Debug, Args)]
 pub(super) struct Walk {
-    /// A .gltf, .glb, .vrm, .obj, .ply, .off, .stl or .wrl file, optionally followed by .gz
+    /// A .mwl, .gltf, .glb, .vrm, .obj, .ply, .off, .stl or .wrl file; all but .mwl may be followed by .gz
     #[arg(value_name = "FILE")]
     input: PathBuf,
     /// circle: once around; rotate: small turns to and fro; zoom: in and out; fly: close, turning; or a file of cameras
@@ -34,7 +34,7 @@ pub(super) struct Walk {
     /// How many slots the vertex buffer has
     #[arg(long, value_name = "N", default_value_t = LodWalkOptions::default().slots)]
     slots: usize,
-    /// Which slot the next vertex takes
+    /// The eviction policy: which slot the next vertex takes
     #[arg(long, value_name = "POLICY", default_value = "finest")]
     policy: Policy,
     /// How many pixels the surface may be off
@@ -44,7 +44,7 @@ pub(super) struct Walk {
     #[arg(long, value_name = "PART", default_value_t = LodWalkOptions::default().hysteresis)]
     hysteresis: f64,
     /// The picture, in pixels
-    #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = picture_size)]
+    #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = cameras::picture_size)]
     size: [u32; 2],
     /// How many bytes a vertex has
     #[arg(long, value_name = "BYTES", default_value_t = LodWalkOptions::default().vertex_size)]
@@ -94,13 +94,6 @@ impl Policy {
     }
 }
 
-/// A width and a height, such as `800x600`.
-pub(super) fn picture_size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once('x').map(|(width, height)| [width, height]);
-    let sides = sides.and_then(|[width, height]| Some([width.parse().ok()?, height.parse().ok()?]));
-    sides.ok_or_else(|| "give width and height in pixels, such as 800x600".to_owned())
-}
-
 /// Prints what a walk costs.
 pub(super) fn run(arguments: &Walk) -> Result<()> {
     let mut options = LodWalkOptions::default();
@@ -118,19 +111,20 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
     options
         .check()
         .map_err(|error| Usage(format!("--{error}")))?;
-    options.path = path(arguments)?;
+    let limits = arguments.limits.limits();
+    (options.path, options.camera_file) = cameras::path(&arguments.path, options.size, limits)?;
     if let Some(path) = &arguments.plot {
         PLOT.check_no_mesh(path, [arguments.input.as_path()])?;
         PLOT.check(path, arguments.force)?;
     }
 
     let mut reading = ReadOptions::default();
-    reading.limits = arguments.limits.limits();
-    let document = Document::open(&arguments.input, reading)?;
+    reading.limits = limits;
+    let source = LodSource::open(&arguments.input, &reading)?;
     let watch = Watch::new(None, arguments.report.shows_progress());
     let start = Instant::now();
     let clock = || start.elapsed().as_secs_f64();
-    let report = operations::lod_walk(&document, &options, &clock, &watch)?;
+    let report = operations::lod_walk(source, &options, &clock, &watch)?;
     watch.finish();
 
     arguments.report.json_line(&report.to_json())?;
@@ -143,51 +137,16 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
     Ok(())
 }
 
-/// A path by its name, or the cameras of a file.
-fn path(arguments: &Walk) -> Result<CameraPath> {
-    let name = &arguments.path;
-    let shape = CameraPath::SHAPES.into_iter().find(|it| it.name() == name);
-    if let Some(shape) = shape {
-        return Ok(shape);
-    }
-    let file = Path::new(name);
-    let is_named_json = file
-        .extension()
-        .is_some_and(|it| it.eq_ignore_ascii_case("json"));
-    if !is_named_json && !file.exists() {
-        let names = CameraPath::SHAPES.map(|it| it.name()).join(", ");
-        let told = format!("--path {name}: give {names}, or a file of cameras (.json)");
-        return Err(Usage(told).into());
-    }
-    let cameras = cameras(file, &arguments.limits, arguments.size)?;
-    Ok(CameraPath::Given(cameras.into()))
-}
-
-/// The cameras of a file.
-pub(super) fn cameras(file: &Path, limits: &Size, size: [u32; 2]) -> Result<Vec<Camera>> {
-    let limit = limits.limits().file_bytes;
-    let mut bytes = Vec::new();
-    let read = fs::File::open(file);
-    let read = read.and_then(|opened| opened.take(limit.saturating_add(1)).read_to_end(&mut bytes));
-    read.with_context(|| file.display().to_string())?;
-    if bytes.len() as u64 > limit {
-        bail!(
-            "{}: more bytes than the limit of {limit}. Split the file, or allow more with --max-bytes",
-            file.display()
-        );
-    }
-    Ok(operations::cameras_from_json(file, &bytes, size)?)
-}
-
 /// What is shown of a quantity, and its digits after the point.
-const ROWS: [(WalkQuantity, &str, usize); 12] = [
+const ROWS: [(WalkQuantity, &str, usize); 13] = [
     (WalkQuantity::Vertices, "active vertices", 0),
     (WalkQuantity::Faces, "faces", 0),
     (WalkQuantity::Added, "vertices added", 0),
     (WalkQuantity::Removed, "vertices removed", 0),
-    (WalkQuantity::Inserts, "vertices sent", 0),
-    (WalkQuantity::VertexRanges, "in ranges", 0),
+    (WalkQuantity::Inserts, "inserts", 0),
+    (WalkQuantity::VertexRanges, "vertex ranges", 0),
     (WalkQuantity::VertexBytes, "vertex bytes", 0),
+    (WalkQuantity::PatchedFaces, "faces patched", 0),
     (WalkQuantity::IndexRanges, "index ranges", 0),
     (WalkQuantity::IndexBytes, "index bytes", 0),
     (WalkQuantity::UpdateMilliseconds, "ms, level of detail", 3),
@@ -206,7 +165,7 @@ fn text(report: &LodWalkReport) -> String {
         mesh.vertices,
         mesh.faces,
         mesh.roots,
-        options.path.name(),
+        cameras::told(&options.path, options.camera_file.as_deref()),
         report.frames.len(),
         options.tolerance,
         options.slots,
@@ -214,7 +173,10 @@ fn text(report: &LodWalkReport) -> String {
     );
     let head = ["a frame", "first", "mean", "median", "worst", "all frames"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    for (quantity, name, digits) in ROWS {
+    let read = report
+        .file_bytes
+        .map(|_| (WalkQuantity::ReadBytes, "file bytes read", 0));
+    for (quantity, name, digits) in ROWS.into_iter().chain(read) {
         let it = report.summary(quantity);
         let [count, part] = [digits, digits.max(1)];
         let later = [(it.mean, part), (it.median, part), (it.worst, count)];
@@ -227,6 +189,11 @@ fn text(report: &LodWalkReport) -> String {
     }
     text += &columns(&rows);
 
+    if let Some(length) = report.file_bytes {
+        let read = report.summary(WalkQuantity::ReadBytes).total;
+        let percent = 100.0 * read / length as f64;
+        text += &format!("\nbytes of the file: {length}; read: {read}, {percent:.2} %");
+    }
     let [streamed, in_passes] = report.overfull_frames();
     if streamed > 0 && options.policy != Eviction::Nothing {
         text += &format!(
@@ -240,17 +207,14 @@ fn text(report: &LodWalkReport) -> String {
     }
     if let Some(optimum) = report.optimum {
         let inserts = report.summary(WalkQuantity::Inserts).total;
-        let times = |least: f64| format!("{:.3} times", inserts / least.max(1.0));
-        let distinct = optimum.distinct_vertices;
-        text += &format!(
-            "\nvertices active at some time: {distinct}; sent: {}",
-            times(distinct as f64)
-        );
-        text += &match optimum.fewest_inserts {
-            Some(fewest) => format!(
-                " that, {} the fewest possible, {fewest}",
-                times(fewest as f64)
-            ),
+        let (distinct, fewest) = optimum.times(inserts);
+        let vertices = optimum.distinct_vertices;
+        text +=
+            &format!("\nvertices active at some time: {vertices}; inserts: {distinct:.3} times");
+        text += &match optimum.fewest_inserts.zip(fewest) {
+            Some((fewest, times)) => {
+                format!(" that, {times:.3} times the fewest possible, {fewest}")
+            }
             None => {
                 " that; the fewest possible is not known, as a frame has more than slots".to_owned()
             }
@@ -290,7 +254,7 @@ fn svg(report: &LodWalkReport) -> String {
     let counts = [
         (WalkQuantity::Vertices, "active vertices"),
         (WalkQuantity::Faces, "faces"),
-        (WalkQuantity::Inserts, "vertices sent"),
+        (WalkQuantity::Inserts, "inserts"),
         (WalkQuantity::PatchedFaces, "faces patched"),
     ];
     let times = [
@@ -302,17 +266,4 @@ fn svg(report: &LodWalkReport) -> String {
         &picture("Frames of a walk", "number", &counts),
         &picture("Times of these frames", "milliseconds", &times),
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::picture_size;
-
-    #[test]
-    fn pictures_have_two_sides() {
-        assert_eq!(picture_size("800x600"), Ok([800, 600]));
-        for text in ["", "800", "800x", "x", "800x-1", "8x6x4", "99999999999x1"] {
-            assert!(picture_size(text).is_err(), "{text}");
-        }
-    }
 }

@@ -30,7 +30,6 @@ pub(super) fn file_head(
     copied: usize,
     seconds: Option<f64>,
 ) -> Map<String, Value> {
-    let name = |path: Option<&Path>| json!(path.map(|path| path.display().to_string()));
     let mut report = head(command);
     let members = [
         ("file", name(file)),
@@ -41,6 +40,11 @@ pub(super) fn file_head(
     ];
     report.extend(members.map(|(key, value)| (key.to_owned(), value)));
     report
+}
+
+/// The name of a file, if there is one.
+pub(super) fn name(path: Option<&Path>) -> Value {
+    json!(path.map(|path| path.display().to_string()))
 }
 
 /// A report as one line, with `items` as the array in its member `list`.

@@ -5,7 +5,8 @@
 //! document and keeps every other byte, `simplify` takes faces away from it, `inspect` counts it as it is, and
 //! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads, `cull_build` adds tables that say which faces need not be
 //! drawn, and `cull_stats` counts what these leave out, `lod_build` makes a file of a mesh with every level of detail,
-//! `lod_extract` takes one mesh from it, and `lod_walk` walks around one whose detail follows the eye; their reports are values that know their JSON.
+//! `lod_extract` takes one mesh from it, `lod_walk` walks around one whose detail follows the eye, and `lod_verify` measures how far
+//! that is off; their reports are values that know their JSON.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
 //! along a history such as [`collapse_history`] makes. [`StripedMesh`] and [`FacePlanes`] count what of a mesh is drawn, and
 //! what could be left out, from where it is seen.
@@ -80,9 +81,10 @@ pub use json::SCHEMA;
 #[cfg(feature = "files")]
 pub use lod::{
     Camera, CameraPath, Eviction, ExtractedMesh, LodBuildOptions, LodBuildReport, LodDetail,
-    LodError, LodExtractOptions, LodExtractReport, LodWalkOptions, LodWalkReport, MOST_FRAMES,
-    WalkFrame, WalkOptimum, WalkOptionError, WalkQuantity, WalkSummary, WalkedMesh,
-    cameras_from_json, lod_build, lod_extract, lod_walk,
+    LodError, LodExtractOptions, LodExtractReport, LodSource, LodVerifyOptions, LodVerifyReport,
+    LodWalkOptions, LodWalkReport, MOST_FRAMES, PixelErrors, VerifiedFrame, WalkFrame, WalkOptimum,
+    WalkOptionError, WalkQuantity, WalkSummary, WalkedMesh, cameras_from_json, lod_build,
+    lod_extract, lod_verify, lod_walk,
 };
 pub use methods::{InBatches, Method, grid_orders, linear_arrangement_cost};
 #[cfg(feature = "files")]

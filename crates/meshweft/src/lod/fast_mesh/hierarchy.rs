@@ -125,7 +125,7 @@ impl VertexHierarchy {
 
     /// The point of a vertex.
     #[inline]
-    pub(super) fn point_of(&self, vertex: u32) -> u32 {
+    pub(crate) fn point_of(&self, vertex: u32) -> u32 {
         match (vertex as usize).checked_sub(self.nodes.len()) {
             None => vertex,
             Some(place) => self.side_points[place],

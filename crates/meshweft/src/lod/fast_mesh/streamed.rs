@@ -8,7 +8,7 @@ use super::changes::FrontChanges;
 use super::front::Front;
 use super::hierarchy::VertexHierarchy;
 use super::loader::BlockLoader;
-use super::stored::{FRONT_BYTES, Head};
+use super::stored::{FRONT_BYTES, Head, MAGIC};
 use super::view::CameraView;
 use crate::bits::{DecodeError, DecodeErrorKind};
 use crate::limits::Limits;
@@ -126,9 +126,13 @@ impl<S: Read + Seek> BlockFile<S> {
     /// Reads a block of all; the first one is that of the roots.
     fn read(&mut self, block: usize) -> Result<(), HierarchyError> {
         let entry = self.head.blocks[block];
-        self.source.seek(SeekFrom::Start(entry.offset))?;
         self.buffer.resize(entry.length as usize, 0);
-        self.source.read_exact(&mut self.buffer)?;
+        let seek = self.source.seek(SeekFrom::Start(entry.offset));
+        let read = seek.and_then(|_| self.source.read_exact(&mut self.buffer));
+        read.map_err(|error| {
+            let place = format!("block {block}, from byte {}", entry.offset);
+            io::Error::new(error.kind(), format!("{place}: {error}"))
+        })?;
         self.bytes_read += u64::from(entry.length);
         Ok(())
     }
@@ -223,6 +227,12 @@ impl<S: Read + Seek> StreamedFront<S> {
 }
 
 impl VertexHierarchy {
+    /// Whether bytes begin as those of a `.mwl` file do.
+    #[must_use]
+    pub fn begins_bytes(start: &[u8]) -> bool {
+        start.starts_with(&MAGIC)
+    }
+
     /// The whole hierarchy from the bytes of a `.mwl` file.
     ///
     /// # Errors

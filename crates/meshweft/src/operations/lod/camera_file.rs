@@ -51,25 +51,24 @@ type Problem = (Place, FileErrorKind);
 
 fn cameras(text: &[u8], size: [u32; 2]) -> Result<Vec<Camera>, Problem> {
     // The whole file.
-    let file: Members<'_> = serde_json::from_slice(text).map_err(|error| {
+    let file: &RawValue = serde_json::from_slice(text).map_err(|error| {
+        let what = match error.is_eof() {
+            true => "the text ends before its JSON does: complete it".to_owned(),
+            false => format!(
+                "this is not JSON from column {} on: fix it there",
+                error.column()
+            ),
+        };
         let line = Place::Line(error.line().max(1));
-        let what = format!(
-            "{}, where an object with fov and frames is expected",
-            told(&error)
-        );
         (line, FileErrorKind::malformed(what))
     })?;
+    let file = members(file, "", "an object with frames, and fov if you like")?;
     check_names(&file, "", &["fov", "frames"])?;
-    let degrees = number(&file)?;
+    let degrees = degrees(&file)?;
     let Some(frames) = file.get("frames") else {
         return Err(wrong("", "frames is missing: a list of cameras"));
     };
-    let frames: Vec<&RawValue> = serde_json::from_str(frames.get()).map_err(|error| {
-        wrong(
-            "/frames",
-            format!("{}: give a list of cameras", told(&error)),
-        )
-    })?;
+    let frames = list(frames, "/frames", "a list of cameras")?;
     if frames.is_empty() {
         return Err(wrong(
             "/frames",
@@ -77,23 +76,17 @@ fn cameras(text: &[u8], size: [u32; 2]) -> Result<Vec<Camera>, Problem> {
         ));
     }
     if frames.len() > MOST_FRAMES {
-        let kind = FileErrorKind::OverLimit {
-            what: "frames",
-            found: frames.len() as u64,
-            limit: MOST_FRAMES as u64,
-        };
-        return Err((Place::Json("/frames".to_owned()), kind));
+        let what = format!(
+            "there are {} frames: give {MOST_FRAMES} at most",
+            frames.len()
+        );
+        return Err(wrong("/frames", what));
     }
 
     // Each frame.
     let camera = |(number, frame): (usize, &&RawValue)| {
         let at = format!("/frames/{number}");
-        let members: Members<'_> = serde_json::from_str(frame.get()).map_err(|error| {
-            wrong(
-                &at,
-                format!("{}: give an object with eye and target", told(&error)),
-            )
-        })?;
+        let members = members(frame, &at, "an object with eye and target")?;
         check_names(&members, &at, &["eye", "target", "up"])?;
         let needed = |name: &str| match vector(&members, &at, name)? {
             Some(vector) => Ok(vector),
@@ -115,7 +108,7 @@ fn cameras(text: &[u8], size: [u32; 2]) -> Result<Vec<Camera>, Problem> {
 }
 
 /// The field of view.
-fn number(file: &Members<'_>) -> Result<f64, Problem> {
+fn degrees(file: &Members<'_>) -> Result<f64, Problem> {
     let Some(text) = file.get("fov") else {
         return Ok(45.0);
     };
@@ -132,10 +125,47 @@ fn vector(members: &Members<'_>, at: &str, name: &str) -> Result<Option<[f64; 3]
     let Some(text) = members.get(name) else {
         return Ok(None);
     };
-    serde_json::from_str(text.get()).map(Some).map_err(|error| {
-        let what = format!("{}: give three numbers", told(&error));
-        wrong(&format!("{at}/{name}"), what)
-    })
+    let at = format!("{at}/{name}");
+    let parts = list(text, &at, "three numbers")?;
+    let [x, y, z] = parts[..] else {
+        let what = format!("there are {} entries: give three numbers", parts.len());
+        return Err(wrong(&at, what));
+    };
+    let mut vector = [0.0; 3];
+    for (number, (part, text)) in vector.iter_mut().zip([x, y, z]).enumerate() {
+        *part = serde_json::from_str(text.get()).map_err(|_| {
+            let what = match text.get() {
+                large if kind(text) == "a number" => format!("{large} is too large: give less"),
+                _ => format!("this is {}: give a number", kind(text)),
+            };
+            wrong(&format!("{at}/{number}"), what)
+        })?;
+    }
+    Ok(Some(vector))
+}
+
+/// The members of an object.
+fn members<'a>(text: &'a RawValue, at: &str, expected: &str) -> Result<Members<'a>, Problem> {
+    let found = serde_json::from_str(text.get());
+    found.map_err(|_| wrong(at, format!("this is {}: give {expected}", kind(text))))
+}
+
+/// The entries of a list.
+fn list<'a>(text: &'a RawValue, at: &str, expected: &str) -> Result<Vec<&'a RawValue>, Problem> {
+    let found = serde_json::from_str(text.get());
+    found.map_err(|_| wrong(at, format!("this is {}: give {expected}", kind(text))))
+}
+
+/// What a JSON value is.
+fn kind(text: &RawValue) -> &'static str {
+    match text.get().as_bytes().first() {
+        Some(b'{') => "an object",
+        Some(b'[') => "a list",
+        Some(b'"') => "a text",
+        Some(b't' | b'f') => "true or false",
+        Some(b'n') => "null",
+        _ => "a number",
+    }
 }
 
 /// Refuses a member of another name than these.
@@ -156,13 +186,6 @@ fn wrong(pointer: &str, what: impl Into<String>) -> Problem {
         _ => Place::Json(pointer.to_owned()),
     };
     (place, FileErrorKind::malformed(what))
-}
-
-/// The text of an error without where it is in the part that was parsed.
-fn told(error: &serde_json::Error) -> String {
-    let text = error.to_string();
-    let what = text.split(" at line ").next();
-    what.unwrap_or_default().to_owned()
 }
 
 #[cfg(test)]
@@ -201,16 +224,28 @@ mod tests {
         let cases = [
             (
                 "{\n\n[",
-                "a.json: line 3: key must be a string, where an object with fov and frames",
+                "a.json: line 3: this is not JSON from column 1 on: fix it there.",
             ),
             (
                 "[]",
-                "a.json: line 1: invalid type: sequence, expected a map, where an object",
+                "a.json: this is a list: give an object with frames, and fov if you like.",
+            ),
+            (
+                "{\"fov\": 3",
+                "a.json: line 1: the text ends before its JSON does: complete it.",
+            ),
+            (
+                &frame(r#"{"eye": null, "target": [1, 1, 1]}"#),
+                "a.json: /frames/1/eye: this is null: give three numbers.",
+            ),
+            (
+                &frame(r#"{"eye": [1, "2", 3], "target": [1, 1, 1]}"#),
+                "a.json: /frames/1/eye/1: this is a text: give a number.",
             ),
             ("{}", "a.json: frames is missing: a list of cameras."),
             (
                 r#"{"frames": 3}"#,
-                "a.json: /frames: invalid type: integer `3`, expected a sequence: give",
+                "a.json: /frames: this is a number: give a list of cameras.",
             ),
             (
                 r#"{"frames": []}"#,
@@ -230,7 +265,7 @@ mod tests {
             ),
             (
                 &frame("[]"),
-                "a.json: /frames/1: invalid type: sequence, expected a map: give an object",
+                "a.json: /frames/1: this is a list: give an object with eye and target.",
             ),
             (
                 &frame(r#"{"eye": [1, 2, 3]}"#),
@@ -238,15 +273,15 @@ mod tests {
             ),
             (
                 &frame(r#"{"eye": [1, 2], "target": [1, 1, 1]}"#),
-                "a.json: /frames/1/eye: invalid length 2",
+                "a.json: /frames/1/eye: there are 2 entries: give three numbers.",
             ),
             (
                 &frame(r#"{"eye": [1, 2, 3, 4], "target": [1, 1, 1]}"#),
-                "a.json: /frames/1/eye: trailing",
+                "a.json: /frames/1/eye: there are 4 entries: give three numbers.",
             ),
             (
                 &frame(r#"{"eye": [1, 2, 1e999], "target": [1, 1, 1]}"#),
-                "a.json: /frames/1/eye: number out of range",
+                "a.json: /frames/1/eye/2: 1e999 is too large: give less.",
             ),
             (
                 &frame(r#"{"eye": [1, 2, 3], "target": [1, 2, 3]}"#),
@@ -269,7 +304,7 @@ mod tests {
         let many = format!("{{\"frames\": [{}0]}}", "0,".repeat(MOST_FRAMES));
         let error = read(&many).unwrap_err();
         assert!(
-            error.contains("/frames: 1000001 frames: more than the limit of 1000000"),
+            error.contains("/frames: there are 1000001 frames: give 1000000 at most."),
             "{error}"
         );
     }

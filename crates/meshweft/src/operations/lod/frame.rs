@@ -30,6 +30,8 @@ pub struct WalkFrame {
     pub passes: usize,
     /// Whether all vertices are sent as a stream.
     pub is_streamed: bool,
+    /// Bytes of a `.mwl` file that are read; in the first frame, with its head and its roots. 0 of any other file.
+    pub read_bytes: u64,
     /// Milliseconds to find what the view needs and to change the front.
     pub update_milliseconds: f64,
     /// Milliseconds to find slots for vertices; passes count here.
@@ -64,6 +66,8 @@ pub enum WalkQuantity {
     IndexBytes,
     /// Passes.
     Passes,
+    /// Bytes of a `.mwl` file that are read.
+    ReadBytes,
     /// Milliseconds to change the front.
     UpdateMilliseconds,
     /// Milliseconds to find slots.
@@ -74,7 +78,7 @@ pub enum WalkQuantity {
 
 impl WalkQuantity {
     /// All of them.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Vertices,
         Self::Faces,
         Self::Added,
@@ -86,6 +90,7 @@ impl WalkQuantity {
         Self::IndexRanges,
         Self::IndexBytes,
         Self::Passes,
+        Self::ReadBytes,
         Self::UpdateMilliseconds,
         Self::CacheMilliseconds,
         Self::IndexMilliseconds,
@@ -106,6 +111,7 @@ impl WalkQuantity {
             Self::IndexRanges => "index_ranges",
             Self::IndexBytes => "index_bytes",
             Self::Passes => "passes",
+            Self::ReadBytes => "read_bytes",
             Self::UpdateMilliseconds => "update_milliseconds",
             Self::CacheMilliseconds => "cache_milliseconds",
             Self::IndexMilliseconds => "index_milliseconds",
@@ -133,6 +139,7 @@ impl WalkQuantity {
             Self::IndexRanges => frame.index_ranges as f64,
             Self::IndexBytes => frame.index_bytes as f64,
             Self::Passes => frame.passes as f64,
+            Self::ReadBytes => frame.read_bytes as f64,
             Self::UpdateMilliseconds => frame.update_milliseconds,
             Self::CacheMilliseconds => frame.cache_milliseconds,
             Self::IndexMilliseconds => frame.index_milliseconds,

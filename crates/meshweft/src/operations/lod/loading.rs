@@ -8,7 +8,6 @@ use crate::attribute::{Attribute, AttributeInfo, Values};
 use crate::error::MeshError;
 use crate::files::Document;
 use crate::geometry::Ball;
-use crate::geometry::double::widened;
 use crate::index::index32;
 use crate::lod::fast_mesh::{FastMesh, VertexHierarchy};
 use crate::mesh::Mesh;
@@ -19,8 +18,6 @@ pub(super) struct Loaded {
     pub(super) hierarchy: VertexHierarchy,
     /// The smallest that has all vertices of the hierarchy in it.
     pub(super) ball: Ball,
-    /// How many faces there are at full detail.
-    pub(super) face_count: usize,
 }
 
 /// Joins the meshes of a document, and makes the hierarchy of all. Positions and faces count, as the file stores them.
@@ -32,16 +29,8 @@ pub(super) fn load(document: &Document) -> Result<Loaded, LodError> {
         file: file(),
         error,
     })?;
-
-    let used = hierarchy.source_vertices().iter();
-    let used = used.map(|&vertex| widened(mesh.positions()[vertex as usize]));
-    let face_count = mesh.face_count() - hierarchy.flat_faces().len();
-    match Ball::around(used) {
-        Some(ball) if face_count > 0 => Ok(Loaded {
-            hierarchy,
-            ball,
-            face_count,
-        }),
+    match hierarchy.ball() {
+        Some(ball) if hierarchy.face_count() > 0 => Ok(Loaded { hierarchy, ball }),
         _ => Err(no_faces(document)),
     }
 }

@@ -1,20 +1,32 @@
-//! What a view-dependent level of detail does on a path of the eye.
+//! What a view-dependent level of detail does on a path of the eye, and how far it is off there.
 //!
 //! `build` makes a `.mwl` file of one, and `extract` takes a mesh from it.
 //!
-//! Read `walk` for what happens in a frame, `paths` for where the eye goes, `loading` for what a file is walked around as.
+//! Read `walk` for what happens in a frame, `paths` for where the eye goes, `loading` for what a file is walked around as, `verify` for what
+//! is measured.
 
 mod build;
 mod camera_file;
+mod detail_front;
 mod extract;
 #[cfg(test)]
 mod file_tests;
 mod frame;
 mod loading;
+mod measured_view;
 mod options;
 mod paths;
+mod pixel_errors;
 mod read_back;
 mod report;
+mod source;
+#[cfg(test)]
+mod stored_walk_tests;
+mod verify;
+mod verify_options;
+mod verify_report;
+#[cfg(test)]
+mod verify_tests;
 mod walk;
 #[cfg(test)]
 mod walk_tests;
@@ -27,5 +39,10 @@ pub use extract::{ExtractedMesh, LodDetail, LodExtractOptions, LodExtractReport,
 pub use frame::{WalkFrame, WalkQuantity};
 pub use options::{LodError, LodWalkOptions, WalkOptionError};
 pub use paths::CameraPath;
+pub use pixel_errors::PixelErrors;
 pub use report::{LodWalkReport, WalkOptimum, WalkSummary, WalkedMesh};
+pub use source::LodSource;
+pub use verify::lod_verify;
+pub use verify_options::LodVerifyOptions;
+pub use verify_report::{LodVerifyReport, VerifiedFrame};
 pub use walk::lod_walk;

@@ -18,6 +18,8 @@ use crate::operations::losses;
 pub struct LodWalkOptions {
     /// Where the eye goes.
     pub path: CameraPath,
+    /// The file that the cameras of a given path are from, for the report.
+    pub camera_file: Option<PathBuf>,
     /// How many frames: 1000, or all cameras that are given, if not said.
     pub frames: Option<usize>,
     /// Width and height of the picture, in pixels.
@@ -44,6 +46,7 @@ impl Default for LodWalkOptions {
     fn default() -> Self {
         Self {
             path: CameraPath::default(),
+            camera_file: None,
             frames: None,
             size: [800, 800],
             tolerance: 1.5,
@@ -107,6 +110,11 @@ impl LodWalkOptions {
         if !is_count(self.slots, 3, most) {
             let allowed = format!("3, which a face needs, to {most}");
             return error("slots", self.slots.to_string(), allowed);
+        }
+        if self.passes && self.policy == Eviction::Nothing {
+            let allowed = "a policy that keeps vertices in slots: without one all are streamed";
+            let found = "with the policy none".to_owned();
+            return error("passes", found, allowed.to_owned());
         }
         if !is_count(self.vertex_size, 1, MOST) {
             let allowed = format!("1 to {MOST} bytes");
@@ -361,6 +369,14 @@ mod tests {
                     ..usual.clone()
                 },
                 "slots 2: give 3, which a face needs",
+            ),
+            (
+                LodWalkOptions {
+                    passes: true,
+                    policy: Eviction::Nothing,
+                    ..usual.clone()
+                },
+                "passes with the policy none: give a policy that keeps vertices in slots",
             ),
             (
                 LodWalkOptions {

@@ -19,11 +19,13 @@ pub struct LodWalkReport {
     pub options: LodWalkOptions,
     /// What was walked around.
     pub mesh: WalkedMesh,
+    /// The size of a `.mwl` file; `None` if the levels of detail were made here.
+    pub file_bytes: Option<u64>,
     /// Each frame.
     pub frames: Vec<WalkFrame>,
     /// What nobody can beat, if asked for.
     pub optimum: Option<WalkOptimum>,
-    /// How long it took to make the hierarchy.
+    /// How long it took to make the hierarchy, or to begin with one.
     pub build_seconds: f64,
     /// Whether the caller stopped it before the last frame.
     pub is_stopped: bool,
@@ -101,22 +103,29 @@ impl LodWalkReport {
     #[must_use]
     pub fn to_json(&self) -> String {
         let options = &self.options;
+        let [streamed, in_passes] = self.overfull_frames();
+        let inserts = self.summary(WalkQuantity::Inserts).total;
         let mut report = json::head("lod walk");
         let members = [
             ("file", json!(self.file.display().to_string())),
+            ("file_bytes", json!(self.file_bytes)),
             ("path", json!(options.path.name())),
+            ("camera_file", json::name(options.camera_file.as_deref())),
             ("size", json!(options.size)),
             ("tolerance", json!(options.tolerance)),
             ("hysteresis", json!(options.hysteresis)),
             ("slots", json!(options.slots)),
             ("policy", json!(options.policy.to_string())),
+            ("passes", json!(options.passes)),
             ("vertex_size", json!(options.vertex_size)),
             ("mesh", self.mesh.json()),
             ("build_seconds", json!(self.build_seconds)),
             ("stopped", json!(self.is_stopped)),
             ("frame_count", json!(self.frames.len())),
+            ("streamed_frames", json!(streamed)),
+            ("frames_in_passes", json!(in_passes)),
             ("summary", self.summaries()),
-            ("optimum", json!(self.optimum.map(|it| it.json()))),
+            ("optimum", json!(self.optimum.map(|it| it.json(inserts)))),
             ("frames", Value::Null),
             ("notes", json::notes(&self.notes)),
         ];
@@ -142,16 +151,27 @@ impl LodWalkReport {
 }
 
 impl WalkedMesh {
-    fn json(self) -> Value {
+    pub(super) fn json(self) -> Value {
         json!({"vertices": self.vertices, "faces": self.faces, "roots": self.roots})
     }
 }
 
 impl WalkOptimum {
-    fn json(self) -> Value {
+    /// How many times as many inserts a walk has as there are different vertices, and as the fewest possible, if these are known.
+    #[must_use]
+    pub fn times(self, inserts: f64) -> (f64, Option<f64>) {
+        let times = |least: f64| inserts / least.max(1.0);
+        let fewest = self.fewest_inserts.map(|it| times(it as f64));
+        (times(self.distinct_vertices as f64), fewest)
+    }
+
+    fn json(self, inserts: f64) -> Value {
+        let (times_distinct, times_fewest) = self.times(inserts);
         json!({
             "distinct_vertices": self.distinct_vertices,
             "fewest_inserts": self.fewest_inserts,
+            "times_distinct": times_distinct,
+            "times_fewest": times_fewest,
         })
     }
 }

@@ -2,29 +2,32 @@
 
 use std::ops::ControlFlow;
 
+use super::detail_front::{DetailFront, LoadedFront};
 use super::frame::WalkFrame;
-use super::loading::{Loaded, load};
 use super::options::{LodError, LodWalkOptions};
 use super::report::{LodWalkReport, WalkOptimum, WalkedMesh};
-use crate::files::Document;
+use super::source::LodSource;
 use crate::index::{BLOCK, index32};
-use crate::lod::fast_mesh::{CameraView, Front, VertexHierarchy};
+use crate::lod::fast_mesh::CameraView;
 use crate::lod::geometry_cache::{
     FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
 };
 use crate::progress::Progress;
 
-/// Walks around the meshes of a document, all as one, and counts what each frame would send to a graphics card.
+/// Walks around the meshes of a document, all as one, or around a `.mwl` file, and counts what each frame would send to a graphics
+/// card.
 ///
 /// A frame changes the front of a vertex hierarchy as the view needs it, gives the vertices that came a slot in the vertex buffer, and
 /// patches the index buffer. Positions and faces count, as the file stores them: nodes of a glTF move nothing, and vertices of
-/// equal positions are one.
+/// equal positions are one. Of a `.mwl` file only the blocks are read that a frame needs; all else is as in a walk around the mesh
+/// of which it was made.
 ///
 /// `clock` gives seconds since any time; give `&|| 0.0` where there is no clock, and all times are 0. All else is the same in each
 /// run.
 ///
 /// # Errors
-/// [`LodError`]: an option is out of range, there are no faces or no positions, or a camera sees nothing.
+/// [`LodError`]: an option is out of range, there are no faces or no positions, a camera sees nothing, or a part of a file cannot be
+/// read.
 ///
 /// # Complexity
 /// That of [`FastMesh::build`](crate::lod::fast_mesh::FastMesh::build), and of [`Front::update`] for each frame.
@@ -41,37 +44,40 @@ use crate::progress::Progress;
 /// println!("{} inserts", report.summary(WalkQuantity::Inserts).total);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn lod_walk(
-    document: &Document,
+pub fn lod_walk<'a>(
+    source: impl Into<LodSource<'a>>,
     options: &LodWalkOptions,
     clock: &dyn Fn() -> f64,
     progress: &dyn Progress,
 ) -> Result<LodWalkReport, LodError> {
     options.check()?;
     let start = clock();
-    let loaded = load(document)?;
+    let LoadedFront {
+        file,
+        detail,
+        ball,
+        notes,
+    } = LoadedFront::new(source.into())?;
     let build_seconds = clock() - start;
+    let coarsest = detail.front();
     let mut report = LodWalkReport {
-        file: document.path().to_owned(),
+        file,
         options: options.clone(),
         mesh: WalkedMesh {
-            vertices: loaded.hierarchy.vertex_count(),
-            faces: loaded.face_count,
-            roots: 0,
+            vertices: coarsest.hierarchy().vertex_count(),
+            faces: coarsest.hierarchy().face_count(),
+            roots: coarsest.vertex_count(),
         },
+        file_bytes: detail.bytes().map(|[length, _]| length),
         frames: Vec::new(),
         optimum: None,
         build_seconds,
         is_stopped: false,
-        notes: document.notes().to_vec(),
+        notes,
     };
 
     // All frames.
-    let Loaded {
-        hierarchy, ball, ..
-    } = loaded;
-    let mut walker = Walker::new(hierarchy, options)?;
-    report.mesh.roots = walker.front.vertex_count();
+    let mut walker = Walker::new(detail, options)?;
     let count = options.path.frame_count(options.frames);
     for number in 0..count {
         let camera = options.path.camera(ball, number, count, options.size);
@@ -80,7 +86,7 @@ pub fn lod_walk(
             frame: number,
             error,
         })?;
-        report.frames.push(walker.frame(&view, clock)?);
+        report.frames.push(walker.frame(&view, number, clock)?);
         let done = (number + 1) as f64 / count as f64;
         if progress.report(done) == ControlFlow::Break(()) && number + 1 < count {
             report.is_stopped = true;
@@ -97,13 +103,15 @@ pub fn lod_walk(
 
 /// The front and the buffers of a renderer.
 pub(super) struct Walker {
-    pub(super) front: Front,
+    pub(super) detail: DetailFront,
     pub(super) cache: GeometryCache,
     pub(super) indices: IndexSlots,
     /// Only if the optimum is asked for.
     pub(super) path: Option<RecordedPath>,
     hysteresis: f64,
     vertex_size: usize,
+    /// How many bytes of the file were read before this frame.
+    bytes_read: u64,
     /// What a card would draw of the first frame is all new to it.
     is_first: bool,
     /// The faces that came or have other corners.
@@ -114,12 +122,18 @@ pub(super) struct Walker {
 
 impl Walker {
     pub(super) fn new(
-        hierarchy: VertexHierarchy,
+        detail: DetailFront,
         options: &LodWalkOptions,
     ) -> Result<Self, GeometryCacheError> {
+        let hierarchy = detail.front().hierarchy();
         let vertices = hierarchy.vertex_count();
-        let errors = (0..index32(vertices)).map(|vertex| hierarchy.error(vertex));
-        let cache = GeometryCache::new(options.slots, errors.collect(), options.policy)?;
+        let errors = match detail.knows_errors() {
+            true => (0..index32(vertices))
+                .map(|it| hierarchy.error(it))
+                .collect(),
+            false => vec![0.0; vertices],
+        };
+        let cache = GeometryCache::new(options.slots, errors, options.policy)?;
         Ok(Self {
             cache: match options.passes {
                 true => cache.with_passes(),
@@ -129,10 +143,11 @@ impl Walker {
             path: options.optimum.then(|| RecordedPath::new(vertices)),
             hysteresis: options.hysteresis,
             vertex_size: options.vertex_size,
+            bytes_read: 0,
             is_first: true,
             patched: Vec::new(),
             pass: Vec::new(),
-            front: Front::new(hierarchy),
+            detail,
         })
     }
 
@@ -140,51 +155,64 @@ impl Walker {
     pub(super) fn frame(
         &mut self,
         view: &CameraView,
+        number: usize,
         clock: &dyn Fn() -> f64,
-    ) -> Result<WalkFrame, GeometryCacheError> {
+    ) -> Result<WalkFrame, LodError> {
         // What the view needs.
         let start = clock();
-        self.front.update(view, self.hysteresis);
+        self.detail.update(view, self.hysteresis, number)?;
+        let front = self.detail.front();
         let updated = clock();
 
-        // Slots for vertices.
-        let changes = self.front.changes();
-        let all: Vec<u32>;
-        let [added, removed] = match self.is_first {
-            false => [&changes.added_vertices[..], &changes.removed_vertices[..]],
-            true => {
-                all = self.front.vertices().collect();
-                [&all[..], &[]]
-            }
+        // In the order of their numbers, which does not depend on what had been read when. Fine ones leave first.
+        let changes = front.changes();
+        let [mut added, mut removed] = match self.is_first {
+            false => [&changes.added_vertices, &changes.removed_vertices].map(Vec::clone),
+            true => [front.vertices().collect(), Vec::new()],
         };
-        let upload = self.cache.change(added, removed)?;
+        added.sort_unstable();
+        removed.sort_unstable_by(|a, b| b.cmp(a));
+        self.patched.clear();
+        match self.is_first {
+            true => self.patched.extend(front.faces()),
+            false => {
+                let faces = changes.added_faces.iter().chain(&changes.changed_faces);
+                let corners = |&face: &u32| Some((face, front.face(face)?));
+                self.patched.extend(faces.filter_map(corners));
+            }
+        }
+        self.patched.sort_unstable();
+        let mut removed_faces = changes.removed_faces.clone();
+        removed_faces.sort_unstable();
+
+        // Slots for vertices.
+        let sorted = clock();
+        if !self.detail.knows_errors() {
+            for &vertex in &added {
+                self.cache
+                    .set_error(vertex, front.hierarchy().error(vertex))?;
+            }
+        }
+        let upload = self.cache.change(&added, &removed)?;
         let (mode, statistics) = (upload.mode(), upload.statistics());
         let cached = clock();
         if let Some(path) = &mut self.path {
-            path.push_change(added, removed)?;
+            path.push_change(&added, &removed)?;
         }
 
         // Indices of faces.
         let recorded = clock();
-        self.patched.clear();
-        match self.is_first {
-            true => self.patched.extend(self.front.faces()),
-            false => {
-                let faces = changes.added_faces.iter().chain(&changes.changed_faces);
-                let corners = |&face: &u32| Some((face, self.front.face(face)?));
-                self.patched.extend(faces.filter_map(corners));
-            }
-        }
         let patch = self
             .indices
-            .update(&self.cache, &changes.removed_faces, &self.patched)
+            .update(&self.cache, &removed_faces, &self.patched)
             .expect("corners of faces of the front are active vertices");
         let patch = patch.statistics();
         let indexed = clock();
 
+        let read = self.detail.bytes().map_or(0, |[_, read]| read);
         let mut frame = WalkFrame {
-            vertices: self.front.vertex_count(),
-            faces: self.front.face_count(),
+            vertices: front.vertex_count(),
+            faces: front.face_count(),
             added: changes.added_vertices.len(),
             removed: changes.removed_vertices.len(),
             inserts: statistics.inserts,
@@ -195,11 +223,13 @@ impl Walker {
             index_bytes: patch.bytes as u64,
             passes: 1,
             is_streamed: mode == FrameMode::Streamed,
+            read_bytes: read - self.bytes_read,
             update_milliseconds: 1e3 * (updated - start),
-            cache_milliseconds: 1e3 * (cached - updated),
+            cache_milliseconds: 1e3 * (cached - sorted),
             index_milliseconds: 1e3 * (indexed - recorded),
         };
         self.is_first = false;
+        self.bytes_read = read;
         if mode == FrameMode::Passes {
             self.draw_passes(&mut frame)?;
             frame.cache_milliseconds += 1e3 * (clock() - indexed);

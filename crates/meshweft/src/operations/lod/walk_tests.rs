@@ -5,8 +5,8 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use super::detail_front::LoadedFront;
 use super::frame::{WalkFrame, WalkQuantity};
-use super::loading::load;
 use super::options::{LodError, LodWalkOptions};
 use super::paths::CameraPath;
 use super::walk::{Walker, lod_walk};
@@ -14,34 +14,68 @@ use crate::files::{Document, Format, ReadOptions};
 use crate::lod::geometry_cache::Eviction;
 use crate::progress::Progress;
 
-/// Two bumpy hills of squares, in two objects of an OBJ, one above the other.
-fn hills() -> Document {
-    let side = 40;
+/// Cells on a side of a hill.
+const SIDE: u32 = 40;
+
+/// A bumpy hill of squares above another one: its vertices and faces.
+fn hill(number: u32) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let place = |i: u32| {
+        let [x, y] = [i % (SIDE + 1), i / (SIDE + 1)].map(|at| f64::from(at) / 4.0);
+        let height = 5.0 * f64::from(number) + (2.1 * x).sin() * (1.7 * y).cos();
+        [x, height, y]
+    };
+    let cell = |i: u32| {
+        let corner = i / SIDE * (SIDE + 1) + i % SIDE;
+        let above = corner + SIDE + 1;
+        [[corner, above, corner + 1], [corner + 1, above, above + 1]]
+    };
+    let places = (0..(SIDE + 1) * (SIDE + 1)).map(place);
+    (places.collect(), (0..SIDE * SIDE).flat_map(cell).collect())
+}
+
+/// Two hills, in two objects of an OBJ.
+pub(super) fn hills() -> Document {
     let mut text = String::new();
-    for object in 0..2 {
-        writeln!(text, "o hill{object}").unwrap();
-        for i in 0..(side + 1) * (side + 1) {
-            let [x, y] = [i % (side + 1), i / (side + 1)].map(|at| f64::from(at) / 4.0);
-            let height = 5.0 * f64::from(object) + (2.1 * x).sin() * (1.7 * y).cos();
-            writeln!(text, "v {x} {height} {y}").unwrap();
+    let mut first = 1;
+    for number in 0..2 {
+        let (places, faces) = hill(number);
+        writeln!(text, "o hill{number}").unwrap();
+        for [x, y, z] in &places {
+            writeln!(text, "v {x} {y} {z}").unwrap();
         }
-        let first = 1 + object * (side + 1) * (side + 1);
-        for i in 0..side * side {
-            let corner = first + i / side * (side + 1) + i % side;
-            let above = corner + side + 1;
-            writeln!(text, "f {corner} {above} {}", corner + 1).unwrap();
-            writeln!(text, "f {} {above} {}", corner + 1, above + 1).unwrap();
+        for face in faces {
+            let [a, b, c] = face.map(|vertex| vertex + first);
+            writeln!(text, "f {a} {b} {c}").unwrap();
         }
+        first += u32::try_from(places.len()).unwrap();
     }
     from_obj(&text)
 }
 
-fn from_obj(text: &str) -> Document {
+/// The same hills as two meshes of a VRML file.
+fn hills_apart() -> Document {
+    let mut text = String::from("#VRML V2.0 utf8\n");
+    for number in 0..2 {
+        let (places, faces) = hill(number);
+        let places = places.iter().map(|[x, y, z]| format!("{x} {y} {z}, "));
+        let faces = faces.iter().map(|[a, b, c]| format!("{a} {b} {c} -1 "));
+        let (places, faces) = (places.collect::<String>(), faces.collect::<String>());
+        writeln!(
+            text,
+            "Shape {{ geometry IndexedFaceSet {{ coord Coordinate {{ point [ {places} ] }} coordIndex [ {faces} ] }} }}"
+        )
+        .unwrap();
+    }
+    let name = Path::new("hills.wrl");
+    Document::from_bytes(text.into(), Format::Vrml, name, ReadOptions::default()).unwrap()
+}
+
+pub(super) fn from_obj(text: &str) -> Document {
     let name = Path::new("hills.obj");
     Document::from_bytes(text.into(), Format::Obj, name, ReadOptions::default()).unwrap()
 }
 
-fn options(path: CameraPath, slots: usize) -> LodWalkOptions {
+pub(super) fn options(path: CameraPath, slots: usize) -> LodWalkOptions {
     LodWalkOptions {
         path,
         slots,
@@ -65,17 +99,17 @@ fn the_card_has_the_front_in_every_frame() {
                 passes,
                 ..options(path.clone(), slots)
             };
-            let loaded = load(&document).unwrap();
-            let mut walker = Walker::new(loaded.hierarchy, &options).unwrap();
-            let mut active = walker.front.vertex_count();
+            let loaded = LoadedFront::new((&document).into()).unwrap();
+            let mut walker = Walker::new(loaded.detail, &options).unwrap();
+            let mut active = walker.detail.front().vertex_count();
             assert!(active > 0);
             for frame in 0..30 {
                 let camera = path.camera(loaded.ball, frame, 30, [800, 600]);
                 let view = camera.view(options.tolerance).unwrap();
-                let row = walker.frame(&view, &|| 0.0).unwrap();
+                let row = walker.frame(&view, frame, &|| 0.0).unwrap();
                 active = active + row.added - row.removed;
                 assert_eq!(row.vertices, active);
-                assert_eq!(walker.front.vertices().count(), active);
+                assert_eq!(walker.detail.front().vertices().count(), active);
                 assert_eq!(walker.cache.active().len(), active);
                 assert!(walker.indices.is_true_to(&walker.cache));
                 check(&walker, &row, &options);
@@ -99,7 +133,7 @@ fn check(walker: &Walker, row: &WalkFrame, options: &LodWalkOptions) {
 
     // Faces that live in the index buffer are those of the front, with the same corners.
     let mut living = 0;
-    for (face, corners) in walker.front.faces() {
+    for (face, corners) in walker.detail.front().faces() {
         let place = walker.indices.place(face).unwrap() as usize;
         assert_eq!(walker.indices.corners()[place], corners);
         living += 1;
@@ -160,9 +194,14 @@ fn figures_add_up() {
 }
 
 #[test]
-fn objects_are_one_mesh() {
-    let mesh = report(&hills(), &options(CameraPath::Zoom, 9000)).mesh;
+fn meshes_are_one_mesh() {
+    let (one, apart) = (hills(), hills_apart());
+    assert_eq!((one.meshes().len(), apart.meshes().len()), (1, 2));
+    let options = options(CameraPath::Zoom, 9000);
+    let [one, apart] = [one, apart].map(|document| report(&document, &options));
+    let mesh = apart.mesh;
     assert_eq!((mesh.vertices, mesh.faces), (2 * 41 * 41, 2 * 2 * 40 * 40));
+    assert_eq!((mesh, apart.frames), (one.mesh, one.frames));
 }
 
 #[test]
@@ -288,7 +327,7 @@ fn what_cannot_be_walked_around_is_told() {
 
     // A camera that sees nothing.
     let document = hills();
-    let loaded = load(&document).unwrap();
+    let loaded = LoadedFront::new((&document).into()).unwrap();
     let camera = CameraPath::Circle.camera(loaded.ball, 0, 9, [9, 9]);
     let blind = crate::lod::fast_mesh::Camera {
         target: camera.eye,

@@ -1,0 +1,119 @@
+//! A front whose hierarchy is all there, or is read as it is needed.
+
+use std::path::PathBuf;
+
+use super::loading::load;
+use super::options::LodError;
+use super::source::{LodSource, SourceKind, StoredFile};
+use crate::files::{Document, Note};
+use crate::geometry::Ball;
+use crate::lod::fast_mesh::{CameraView, Front, HierarchyError};
+
+/// A source whose coarsest mesh is there.
+pub(super) struct LoadedFront {
+    pub(super) file: PathBuf,
+    pub(super) detail: DetailFront,
+    /// The smallest that has all vertices in it.
+    pub(super) ball: Ball,
+    /// What the reader of the file leaves as it is.
+    pub(super) notes: Vec<Note>,
+}
+
+impl LoadedFront {
+    /// The front of a source.
+    pub(super) fn new(source: LodSource<'_>) -> Result<Self, LodError> {
+        match source.kind {
+            SourceKind::Document(document) => Self::of_document(document),
+            SourceKind::Opened(document) => Self::of_document(&document),
+            SourceKind::Stored(stored) => {
+                let file = stored.path.clone();
+                let hierarchy = stored.front.front().hierarchy();
+                let ball = hierarchy.ball().filter(|_| hierarchy.face_count() > 0);
+                match ball {
+                    Some(ball) => Ok(Self {
+                        file,
+                        detail: DetailFront::Stored(stored),
+                        ball,
+                        notes: Vec::new(),
+                    }),
+                    None => Err(LodError::NoFaces { file }),
+                }
+            }
+        }
+    }
+
+    fn of_document(document: &Document) -> Result<Self, LodError> {
+        let loaded = load(document)?;
+        Ok(Self {
+            file: document.path().to_owned(),
+            detail: DetailFront::Whole(Box::new(Front::new(loaded.hierarchy))),
+            ball: loaded.ball,
+            notes: document.notes().to_vec(),
+        })
+    }
+}
+
+/// The front of a walk.
+pub(super) enum DetailFront {
+    Whole(Box<Front>),
+    Stored(Box<StoredFile>),
+}
+
+impl DetailFront {
+    pub(super) fn front(&self) -> &Front {
+        match self {
+            Self::Whole(front) => front,
+            Self::Stored(file) => file.front.front(),
+        }
+    }
+
+    /// Whether the errors of vertices are known before these are active.
+    pub(super) fn knows_errors(&self) -> bool {
+        matches!(self, Self::Whole(_))
+    }
+
+    /// How many bytes the file has, and how many were read; `None` if the hierarchy was not read from one.
+    pub(super) fn bytes(&self) -> Option<[u64; 2]> {
+        match self {
+            Self::Whole(_) => None,
+            Self::Stored(file) => Some(file.front.bytes()),
+        }
+    }
+
+    /// Makes the mesh what the view of a frame asks for.
+    pub(super) fn update(
+        &mut self,
+        view: &CameraView,
+        hysteresis: f64,
+        frame: usize,
+    ) -> Result<(), LodError> {
+        match self {
+            Self::Whole(front) => {
+                front.update(view, hysteresis);
+                Ok(())
+            }
+            Self::Stored(file) => {
+                let done = file.front.update(view, hysteresis).map(|_| ());
+                done.map_err(|error| stored_error(file.path.clone(), Some(frame), error))
+            }
+        }
+    }
+
+    /// Makes every vertex active.
+    pub(super) fn refine_fully(&mut self) -> Result<(), LodError> {
+        match self {
+            Self::Whole(front) => {
+                front.refine_fully();
+                Ok(())
+            }
+            Self::Stored(file) => {
+                let done = file.front.refine_fully().map(|_| ());
+                done.map_err(|error| stored_error(file.path.clone(), None, error))
+            }
+        }
+    }
+}
+
+fn stored_error(file: PathBuf, frame: Option<usize>, error: HierarchyError) -> LodError {
+    LodError::Stored { file, frame, error }
+}
