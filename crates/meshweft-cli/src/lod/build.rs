@@ -105,6 +105,10 @@ fn text(report: &LodBuildReport) -> String {
             report.flat_faces,
             "faces with two corners at one place, left out",
         ),
+        (
+            report.unused_vertices,
+            "vertices that no face uses, left out",
+        ),
     ];
     for (count, what) in asides.into_iter().filter(|&(count, _)| count > 0) {
         text += &format!("\n{what}: {count}");

@@ -45,7 +45,7 @@ fn what_a_file_would_lose_is_named() {
     folder.write(
         "two.obj",
         "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nusemtl red\nf 1/1 2/1 4/1 3/1\n\
-         o b\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf 5 6 7\nf 5 5 6\n",
+         o b\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 9 9 9\nv 8 8 8\nf 5 6 7\nf 5 5 6\n",
     );
     let build = |flags: &[&str]| {
         folder.run(&[&["lod", "build", "two.obj", "-o", "two.mwl"], flags].concat())
@@ -60,12 +60,21 @@ fn what_a_file_would_lose_is_named() {
     ] {
         assert!(run.err().contains(expected), "{}", run.err());
     }
+    folder.write(
+        "chart.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n",
+    );
+    let run = folder.run(&["lod", "build", "chart.obj", "-o", "two.mwl"]);
+    let expected = "also stores TEXCOORD_0 of corners. Leave them out";
+    assert_eq!(run.code(), 1);
+    assert!(run.err().contains(expected), "{}", run.err());
     assert!(!folder.0.join("two.mwl").exists());
     let run = build(&["--drop-attributes"]);
     assert_eq!(run.code(), 0, "{}", run.err());
     for expected in [
         "vertices 7, faces 3; ",
         "faces with two corners at one place, left out: 1",
+        "vertices that no face uses, left out: 2",
     ] {
         assert!(run.out().contains(expected), "{}", run.out());
     }

@@ -66,8 +66,9 @@ fn name_of(info: &AttributeInfo) -> String {
     let name = &info.semantic;
     match (info.morph_target, info.domain) {
         (Some(target), _) => format!("{name} of morph target {target}"),
+        (None, Domain::Vertex) => name.to_string(),
+        (None, Domain::Corner) => format!("{name} of corners"),
         (None, Domain::Face) => format!("{name} of faces"),
-        (None, _) => name.to_string(),
     }
 }
 

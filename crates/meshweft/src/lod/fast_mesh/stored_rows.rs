@@ -96,7 +96,7 @@ pub(super) fn write(bytes: &mut Vec<u8>, layouts: &[AttributeInfo], name: &str) 
     write_text(bytes, name);
 }
 
-/// Reads what [`write`] wrote.
+/// Reads what [`write()`] wrote.
 pub(super) fn read(
     reader: &mut FieldReader<'_>,
 ) -> Result<(Vec<AttributeInfo>, String), DecodeError> {

@@ -10,6 +10,7 @@ use super::read_back;
 use crate::attribute::{AttributeInfo, Domain, Semantic};
 use crate::files::{Document, Note};
 use crate::lod::fast_mesh::FastMesh;
+use crate::mesh::Mesh;
 use crate::operations::json;
 use crate::operations::losses::{self, Losses};
 
@@ -51,6 +52,8 @@ pub struct LodBuildReport {
     pub cut_points: usize,
     /// Faces that are left out because two of their corners are at one place: they draw nothing.
     pub flat_faces: usize,
+    /// Vertices of the file that are left out because no face uses them.
+    pub unused_vertices: usize,
     /// What else is stored with each vertex.
     pub attributes: Vec<AttributeInfo>,
     /// What the reader of the file says.
@@ -76,6 +79,7 @@ impl LodBuildReport {
             ("depth", json!(self.depth)),
             ("cut_points", json!(self.cut_points)),
             ("flat_faces", json!(self.flat_faces)),
+            ("unused_vertices", json!(self.unused_vertices)),
             ("attributes", names(&self.attributes)),
             ("notes", json::notes(&self.notes)),
         ];
@@ -160,6 +164,7 @@ pub fn lod_build(
         depth: hierarchy.depth(),
         cut_points: hierarchy.cut_points(),
         flat_faces,
+        unused_vertices: mesh.vertex_count() - used_vertices(&mesh),
         attributes: hierarchy.attributes().to_vec(),
         notes: document.notes().to_vec(),
     };
@@ -168,6 +173,14 @@ pub fn lod_build(
     report.roots = read_back::roots_if_same(&mesh, &attributes, &bytes)
         .ok_or_else(|| LodError::NotVerified { file: file() })?;
     Ok((bytes, report))
+}
+
+fn used_vertices(mesh: &Mesh) -> usize {
+    let mut is_used = vec![false; mesh.vertex_count()];
+    for &vertex in mesh.faces().as_flattened() {
+        is_used[vertex as usize] = true;
+    }
+    is_used.into_iter().filter(|&used| used).count()
 }
 
 /// The attributes of vertices that all meshes with faces have; none if one has others.
