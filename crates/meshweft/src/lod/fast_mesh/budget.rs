@@ -69,7 +69,7 @@ impl Front {
         budget: FrameBudget,
         loader: &mut L,
     ) -> Result<bool, L::Error> {
-        self.begin(hysteresis);
+        self.begin(hysteresis, true);
         let mut queues = std::mem::take(&mut self.queues);
         for list in [&self.waiting, &self.active] {
             self.moved.extend(list.points());
@@ -87,6 +87,7 @@ impl Front {
                 Ok(Some(_)) if left == 0 => break Ok(false),
                 Ok(Some(FrontStep::Split(point))) => {
                     left -= 1;
+                    queues.splits.pop();
                     self.split(point, loader)
                 }
                 Ok(Some(FrontStep::Collapse(point))) => {

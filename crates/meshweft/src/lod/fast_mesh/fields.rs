@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::bits::{DecodeError, DecodeErrorKind, varint};
+use crate::bits::{DecodeError, DecodeErrorKind, crc32, varint};
 use crate::topology::half_edges::NONE;
 
 /// The difference of a number from another, plus one; 0 for [`NONE`].
@@ -18,6 +18,11 @@ pub(super) fn put_f32s<const N: usize>(bytes: &mut Vec<u8>, numbers: [f32; N]) {
     for number in numbers {
         bytes.extend(number.to_le_bytes());
     }
+}
+
+/// Whether bytes have a checksum. A fuzzer does not find the right ones: there, any will do.
+pub(super) fn is_sealed(bytes: &[u8], checksum: u32) -> bool {
+    cfg!(fuzzing) || crc32(bytes) == checksum
 }
 
 /// Bytes that are read from the front; `at` is where they were in the file.
@@ -84,6 +89,15 @@ impl<'a> FieldReader<'a> {
             *number = f32::from_le_bytes(self.bytes()?);
         }
         Ok(numbers)
+    }
+
+    /// A number that is not below 0; it may be infinite.
+    pub(super) fn length(&mut self) -> Result<f32, DecodeError> {
+        let [length] = self.f32s()?;
+        match length >= 0.0 {
+            true => Ok(length),
+            false => Err(self.damaged()),
+        }
     }
 
     /// How many bytes are left.

@@ -32,15 +32,18 @@ pub struct Front {
     pub(super) to_split: Vec<u32>,
     /// Points that no other needs any more.
     pub(super) to_collapse: Vec<u32>,
-    /// Points that are new in one of the two lists.
+    /// Points that are new in one of the two lists, if these are noted.
     pub(super) moved: Vec<u32>,
-    /// Points that were counted.
+    notes_moves: bool,
+    /// Points that were counted, or that wait for others to be split.
     pub(super) looked_at: Touched,
     pub(super) queues: BudgetQueues,
 }
 
 /// Places of points that wait have this bit.
 const WAITING: u32 = 1 << 31;
+/// So many siblings are looked at for the one before a point. More are only in a hierarchy that someone made up.
+const MOST_SIBLINGS: u32 = 4096;
 /// In the numbers of points that need one, above the four bits of the flags.
 const ONE_NEED: u32 = 1 << 4;
 
@@ -64,6 +67,7 @@ impl Front {
             to_split: Vec::new(),
             to_collapse: Vec::new(),
             moved: Vec::new(),
+            notes_moves: false,
             looked_at: Touched::new(points),
             queues: BudgetQueues::default(),
             hierarchy,
@@ -175,7 +179,7 @@ impl Front {
         hysteresis: f64,
         loader: &mut L,
     ) -> Result<(), L::Error> {
-        self.begin(hysteresis);
+        self.begin(hysteresis, false);
         let result = self.refine(view, loader);
         if result.is_ok() {
             self.coarsen(&view.with_tolerance(hysteresis));
@@ -195,19 +199,20 @@ impl Front {
         &mut self,
         loader: &mut L,
     ) -> Result<(), L::Error> {
-        self.begin(1.0);
+        self.begin(1.0, false);
         let mut points = self.hierarchy.leaving_points();
         let result = points.try_for_each(|point| self.split(point, loader));
         self.settle();
         result
     }
 
-    /// Nothing changed yet.
-    pub(super) fn begin(&mut self, hysteresis: f64) {
+    /// Nothing changed yet. `notes_moves` says whether points that come into a list are noted.
+    pub(super) fn begin(&mut self, hysteresis: f64, notes_moves: bool) {
         let is_part = hysteresis > 0.0 && hysteresis <= 1.0;
         assert!(is_part, "hysteresis is above 0 and at most 1");
         self.changes.clear();
         self.moved.clear();
+        self.notes_moves = notes_moves;
         self.to_collapse.clear();
     }
 
@@ -288,40 +293,41 @@ impl Front {
         point: u32,
         loader: &mut L,
     ) -> Result<(), L::Error> {
+        let mut result = Ok(());
         self.to_split.push(point);
+
+        // Each waits on the stack for those that it needs.
         while let Some(&point) = self.to_split.last() {
-            // In a hierarchy that someone made up, points may need each other.
-            let is_circle = self.to_split.len() > self.places.len();
-            if is_circle {
-                self.to_split.clear();
-                break;
-            }
             if self.is_active(point) {
                 self.to_split.pop();
                 continue;
             }
-            if let Err(error) = self.fetch(point, loader) {
+            result = self.fetch(point, loader).map(|_| ());
+            if result.is_err() {
                 self.to_split.clear();
-                return Err(error);
+                break;
             }
             let is_missing = |it: &u32| !self.is_active(*it);
             let missing = self.hierarchy.needed_by(point).find(is_missing);
             match missing {
-                Some(other) => self.to_split.push(other),
-                None => self.split_one(point),
+                // In a hierarchy that someone made up, points may need each other: then one is split without the other.
+                Some(other) if self.looked_at.touch(other, false) => self.to_split.push(other),
+                _ => self.split_one(point),
             }
         }
-        Ok(())
+
+        self.looked_at.drain(|_, _| {});
+        result
     }
 
-    /// Makes a point active whose needed ones are.
+    /// Makes a point active; those that it needs are.
     fn split_one(&mut self, point: u32) {
         if self.places[point as usize] != NONE {
             self.waiting.take(point, &mut self.places);
         }
         let bound = self.hierarchy.bound(point);
         self.active.add(point, bound, &mut self.places);
-        self.moved.push(point);
+        self.note_move(point);
         self.touched_points.touch(point, false);
         self.count_needs(point, true);
 
@@ -348,7 +354,8 @@ impl Front {
         let edge = self.hierarchy.edge(point);
         for face in edge.faces() {
             self.touched_faces.touch(face, true);
-            self.face_count -= 1;
+            // Links that someone made up may bring a face that was not counted.
+            self.face_count = self.face_count.saturating_sub(1);
         }
         let touched = &mut self.touched_faces;
         edge.collapse(&mut self.hierarchy.edges, |half_edge| {
@@ -381,7 +388,7 @@ impl Front {
         let parent = nodes[point as usize].parent;
         let mut above = parent;
         let mut at = nodes[parent as usize].first_child;
-        for _ in 0..nodes.len() {
+        for _ in 0..MOST_SIBLINGS {
             if at == point {
                 return self.is_active(above);
             }
@@ -402,6 +409,12 @@ impl Front {
                 Some(error) => self.hierarchy.bound_below(above, error),
             };
             self.waiting.add(point, bound, &mut self.places);
+            self.note_move(point);
+        }
+    }
+
+    fn note_move(&mut self, point: u32) {
+        if self.notes_moves {
             self.moved.push(point);
         }
     }
@@ -416,7 +429,7 @@ impl Front {
         for other in needed.into_iter().filter(|&it| it != NONE) {
             let needs = &mut self.hierarchy.needs[other as usize];
             if is_more {
-                *needs += ONE_NEED;
+                *needs = needs.saturating_add(ONE_NEED);
             } else {
                 *needs = needs.saturating_sub(ONE_NEED);
                 if *needs < ONE_NEED {

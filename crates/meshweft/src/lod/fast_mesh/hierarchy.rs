@@ -14,7 +14,8 @@ use crate::topology::half_edges::{HalfEdges, NONE};
 ///
 /// A *point* is a place of the mesh; at seams it has several vertices. Points are numbered from coarse to fine by octaves of
 /// their errors: first the roots, which never leave, then those that may, each with one or two faces. The first vertex of a point has its number, others come
-/// after all points. 92 bytes a vertex, 4 more in a front, and those of
+/// after all points. Roots are points where the surface is not a manifold, points whose coordinates are not finite, their neighbours, and
+/// what nothing is coarser than. 92 bytes a vertex, 4 more in a front, and those of
 /// [attributes](Self::with_attributes).
 #[derive(Debug, Clone)]
 pub struct VertexHierarchy {

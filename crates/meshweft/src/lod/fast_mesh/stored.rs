@@ -15,7 +15,7 @@
 use std::ops::Range;
 
 use super::cone::PackedCone;
-use super::fields::{FieldReader, put_difference, put_f32s};
+use super::fields::{FieldReader, is_sealed, put_difference, put_f32s};
 use super::full_detail::FullDetail;
 use super::hierarchy::{HierarchyNode, VertexHierarchy};
 use super::missing::{BLOCK_POINTS, MissingBlocks};
@@ -210,7 +210,7 @@ impl Head {
         file_length: u64,
         limits: Limits,
     ) -> Result<Self, DecodeError> {
-        if crc32(bytes) != checksum {
+        if !is_sealed(bytes, checksum) {
             return Err(DecodeError::damaged(FRONT_BYTES));
         }
         let mut reader = FieldReader::new(bytes, FRONT_BYTES);
@@ -258,7 +258,7 @@ impl Head {
                 offset,
                 length,
                 checksum: u32::from_le_bytes(reader.bytes()?),
-                largest_error: reader.f32s::<1>()?[0],
+                largest_error: reader.length()?,
             };
             blocks.push(entry);
             offset += u64::from(length);
@@ -304,7 +304,7 @@ impl Head {
         } = self.counts;
         let entry = self.blocks[0];
         let at = usize::try_from(entry.offset).unwrap_or(usize::MAX);
-        if crc32(bytes) != entry.checksum {
+        if !is_sealed(bytes, entry.checksum) {
             return Err(DecodeError::damaged(at));
         }
 
@@ -380,7 +380,7 @@ impl Head {
     ) -> Result<(), DecodeError> {
         let entry = self.blocks[1 + block];
         let at = usize::try_from(entry.offset).unwrap_or(usize::MAX);
-        if crc32(bytes) != entry.checksum {
+        if !is_sealed(bytes, entry.checksum) {
             return Err(DecodeError::damaged(at));
         }
         let StoredCounts {
@@ -410,7 +410,7 @@ impl Head {
         }
         for point in there.clone() {
             hierarchy.positions[point as usize] = reader.f32s()?;
-            let [error, radius] = reader.f32s()?;
+            let (error, radius) = (reader.length()?, reader.length()?);
             let node = &mut hierarchy.nodes[point as usize];
             (node.error, node.radius) = (error, radius);
             node.cone = PackedCone::from_bits(u32::from_le_bytes(reader.bytes()?));

@@ -207,7 +207,9 @@ impl CameraView {
         let way = sub(bound.center.map(f64::from), self.eye);
         let square = dot(way, way);
         let seen_within = error * self.reach + radius;
-        if error == 0.0 || square >= seen_within * seen_within {
+        // A place that is not a number is nowhere.
+        let is_near = square < seen_within * seen_within;
+        if error == 0.0 || !is_near {
             return false;
         }
         let is_outside = |side: &[f64; 3]| dot(*side, way) < -radius;
