@@ -40,6 +40,7 @@ mod walk_tests;
 
 pub use checkpoint_walk::CheckpointWalk;
 pub use checkpoints::Checkpoints;
+pub(crate) use collapses::told_from_point;
 pub use collapses::{AttributeWeights, Collapses};
 pub use history::{History, HistoryBuilder, NewRecord, Record};
 pub use index_buffer::IndexBuffer;

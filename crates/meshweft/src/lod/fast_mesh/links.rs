@@ -1,5 +1,6 @@
 //! Half-edge collapses and vertex splits, which undo them.
 
+use crate::progressive::told_from_point;
 use crate::topology::half_edges::{HalfEdges, NONE, next, previous};
 
 /// The two half-edges of an edge that collapses, either may be [`NONE`]: at a border there is one.
@@ -115,18 +116,14 @@ impl Edge {
         let mut flags = 0;
         for (place, face) in self.leaving().into_iter().enumerate() {
             let Some(face) = face else { continue };
-            let there = |corner: u32, found: Option<u32>| found == Some(edges.start(corner));
-            let [b, tip] = face.beyond_b(edges);
-            let [a, tip_from_a] = face.beyond_a(edges);
-            match () {
-                () if there(face.at_b, b) => {}
-                () if there(face.at_a, a) => flags |= B_FROM_A[place],
-                () => return None,
+            let corners = [face.at_a, face.at_b, face.at_tip].map(|corner| edges.start(corner));
+            let beyond = [face.beyond_b(edges), face.beyond_a(edges)];
+            let [b_from_a, tip_from_a] = told_from_point(corners, beyond[0], beyond[1])?;
+            if b_from_a {
+                flags |= B_FROM_A[place];
             }
-            match () {
-                () if there(face.at_tip, tip) => {}
-                () if there(face.at_tip, tip_from_a) => flags |= TIP_FROM_A[place],
-                () => return None,
+            if tip_from_a {
+                flags |= TIP_FROM_A[place];
             }
         }
         Some(flags)
@@ -152,21 +149,11 @@ impl Edge {
         // The vertices of the returning faces may have changed since they left.
         for (place, face) in faces.into_iter().enumerate() {
             let Some(face) = face else { continue };
-            let [b, tip] = face.beyond_b(edges);
-            let [b_from_a, tip_from_a] = face.beyond_a(edges);
-            let b = if flags & B_FROM_A[place] == 0 {
-                b
-            } else {
-                b_from_a
-            };
-            let tip = if flags & TIP_FROM_A[place] == 0 {
-                tip
-            } else {
-                tip_from_a
-            };
-            for (corner, vertex) in [(face.at_b, b), (face.at_tip, tip)] {
-                if let Some(vertex) = vertex {
-                    edges.set_start(corner, vertex);
+            let beyond = [face.beyond_b(edges), face.beyond_a(edges)];
+            let from_a = [B_FROM_A, TIP_FROM_A].map(|bits| flags & bits[place] != 0);
+            for (at, corner) in [face.at_b, face.at_tip].into_iter().enumerate() {
+                if let Some(vertices) = beyond[usize::from(from_a[at])] {
+                    edges.set_start(corner, vertices[at]);
                 }
             }
         }
@@ -192,14 +179,19 @@ impl Edge {
             return;
         };
         let second = pairs[1].unwrap_or(first);
-        // No more steps than half-edges: someone may have made the links up.
+        // Someone may have made the links up: they may come back to where they were, which has a vertex after then.
+        let after = [first[1], second[1]];
+        if after.contains(&first[0]) || after.contains(&second[0]) {
+            return;
+        }
         let mut at = self.first_of_fan(edges);
-        for _ in 0..edges.len() {
-            if at == NONE {
-                break;
-            }
-            let is_second = edges.start(at) != first[0];
-            edges.set_start(at, if is_second { second[1] } else { first[1] });
+        while at != NONE {
+            let vertex = match edges.start(at) {
+                before if before == first[0] => first[1],
+                before if before == second[0] => second[1],
+                _ => break,
+            };
+            edges.set_start(at, vertex);
             moved(at);
             at = self.next_of_fan(edges, at);
         }
@@ -215,26 +207,26 @@ fn next_unless_none(half_edge: u32) -> u32 {
 
 impl LeavingFace {
     /// The vertices of *b* and of the tip in the face beyond the edge between them.
-    fn beyond_b(self, edges: &HalfEdges) -> [Option<u32>; 2] {
+    fn beyond_b(self, edges: &HalfEdges) -> Option<[u32; 2]> {
         self.beyond(edges, self.beyond_b, self.at_b)
     }
 
     /// The vertices of *a* and of the tip in the face beyond the edge between them.
-    fn beyond_a(self, edges: &HalfEdges) -> [Option<u32>; 2] {
+    fn beyond_a(self, edges: &HalfEdges) -> Option<[u32; 2]> {
         self.beyond(edges, self.beyond_a, self.at_a)
     }
 
     /// The vertices across an edge: that across from where `corner` is, and that across from the tip.
-    fn beyond(self, edges: &HalfEdges, side: u32, corner: u32) -> [Option<u32>; 2] {
+    fn beyond(self, edges: &HalfEdges, side: u32, corner: u32) -> Option<[u32; 2]> {
         let twin = edges.twin(side);
         if twin == NONE {
-            return [None; 2];
+            return None;
         }
         // The twin starts where the side ends.
-        let across = [edges.start(next(twin)), edges.start(twin)].map(Some);
-        match side == corner {
+        let across = [edges.start(next(twin)), edges.start(twin)];
+        Some(match side == corner {
             true => across,
             false => [across[1], across[0]],
-        }
+        })
     }
 }

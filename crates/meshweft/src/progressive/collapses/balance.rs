@@ -7,7 +7,8 @@ use crate::progressive::records::SidePair;
 /// How much a removal above another one costs more.
 const DEPTH_FACTOR: f64 = 2.0;
 /// A removal costs at least as much as if a face of the mean area moved by this part of its size, squared: so flat places
-/// leave level by level too.
+/// leave level by level too. Where the mean area is nearly nothing, a part of the bounding box is taken for it: what lies on
+/// a line gets a hierarchy as shallow as a surface has.
 const LEAST_PART: f64 = 1e-8;
 
 /// How many removals are one above the other at each point, at most.
@@ -23,7 +24,7 @@ impl HierarchyBalance {
         }
     }
 
-    /// The cost of a move, with what the depth of the hierarchy costs; `mean_area` is that of the faces.
+    /// The cost of a move, with what the depth of the hierarchy costs; `mean_area` is that of the faces, above 0 but for a mesh at one place.
     pub(super) fn cost(&self, point: u32, found: &Move, mean_area: f64) -> f64 {
         let height = self.height(point, found.to);
         let least = LEAST_PART * mean_area * mean_area;
@@ -81,17 +82,15 @@ fn vertices_are_around(
     let [Some(at_to), Some(at_tip)] = [to, tip].map(|point| face.corner_at(point)) else {
         return false;
     };
-    let [side_here, side_to, side_tip] =
-        [face.corner, at_to, at_tip].map(|corner| rest.side(corner));
+    let corners = [face.corner, at_to, at_tip].map(|corner| rest.side(corner));
 
     // Beyond the edge between the tip and the point.
-    let (mut is_same_to, mut is_same_tip) = (false, false);
+    let mut beyond_point = None;
     for other in &fan.faces {
         if other.corner != face.corner
             && let Some(corner) = other.corner_at(tip)
         {
-            is_same_to |= rest.side(other.corner) == side_here;
-            is_same_tip |= rest.side(corner) == side_tip;
+            beyond_point = Some([other.corner, corner].map(|corner| rest.side(corner)));
         }
     }
 
@@ -109,10 +108,30 @@ fn vertices_are_around(
     });
     // Wound the other way: the tip comes after the neighbour in one of the two faces, and before it in the other.
     let comes_after = |[at, tip]: [u32; 2]| tip == at - at % 3 + (at + 1) % 3;
-    if is_small && count == 1 && comes_after(beyond) != comes_after([at_to, at_tip]) {
-        let [to_side, tip_side] = beyond.map(|corner| rest.side(corner));
-        is_same_to |= to_side == side_to;
-        is_same_tip |= tip_side == side_tip;
-    }
-    is_same_to && is_same_tip
+    let is_manifold = is_small && count == 1 && comes_after(beyond) != comes_after([at_to, at_tip]);
+    let beyond_to = is_manifold.then(|| beyond.map(|corner| rest.side(corner)));
+    told_from_point(corners, beyond_to, beyond_point).is_some()
+}
+
+/// Where the vertices of a face are read when it returns: whether that of the neighbour to which the point went, and that of the
+/// tip, are those of the face beyond the edge between the point and the tip; or else those of the face beyond the edge between the neighbour and the tip.
+/// `None` if neither has the same vertices.
+///
+/// The face has vertices at the point, at the neighbour and at the tip. Those beyond are given first at the neighbour, or the point, and then
+/// at the tip. When the face returns, the point's corner beyond is at the neighbour.
+pub(crate) fn told_from_point(
+    [point, to, tip]: [u32; 3],
+    beyond_to: Option<[u32; 2]>,
+    beyond_point: Option<[u32; 2]>,
+) -> Option<[bool; 2]> {
+    let from = |[here, there]: [u32; 2], place: usize| {
+        let is_beyond =
+            |beyond: Option<[u32; 2]>, vertex| beyond.is_some_and(|it| it[place] == vertex);
+        match () {
+            () if is_beyond(beyond_to, there) => Some(false),
+            () if is_beyond(beyond_point, here) => Some(true),
+            () => None,
+        }
+    };
+    Some([from([point, to], 0)?, from([tip, tip], 1)?])
 }

@@ -59,7 +59,7 @@ impl<'a> Builder<'a> {
     /// What a move costs, all in all.
     fn cost(&self, point: u32, found: &Move) -> f64 {
         match &self.balance {
-            Some(balance) => balance.cost(point, found, self.costs.mean_area(&self.rest)),
+            Some(balance) => balance.cost(point, found, self.costs.area_for_balance(&self.rest)),
             None => found.cost,
         }
     }

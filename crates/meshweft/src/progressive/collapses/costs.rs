@@ -19,6 +19,10 @@ const FARTHEST: f64 = 10.0;
 /// What the mean of their squares weighs, in areas of the fan.
 const MEAN: f64 = 4.0;
 
+/// The least area of a face for what the depth of a hierarchy costs, in squares of the bounding box's diagonal: about as
+/// small as positions of 24 bits can be apart.
+const LEAST_AREA: f64 = 1e-15;
+
 /// The point that is looked at, its moves, and what their costs are made of.
 pub(super) struct RemovalCosts {
     /// The largest error that is allowed, and whether a point stayed because of it.
@@ -30,6 +34,8 @@ pub(super) struct RemovalCosts {
     witnesses: Option<Witnesses>,
     /// The area of all faces at the beginning, twice.
     double_area: f64,
+    /// The square of the bounding box's diagonal.
+    extent: f64,
     /// Makes a cost that of a mesh of size 1.
     scale: f64,
 
@@ -58,6 +64,7 @@ impl RemovalCosts {
             sides: SidePairing::new(rest, attributes, lengths, settings.cross_seams, diagonal),
             witnesses: has_witnesses.then(|| Witnesses::new(faces, points)),
             double_area,
+            extent: diagonal * diagonal,
             scale: if diagonal > 0.0 {
                 diagonal.powi(-4)
             } else {
@@ -89,6 +96,11 @@ impl RemovalCosts {
     /// The mean area of the faces, now.
     pub(super) fn mean_area(&self, rest: &RemainingMesh<'_>) -> f64 {
         0.5 * self.double_area / rest.live_faces() as f64
+    }
+
+    /// The same, but never nearly nothing: where all faces are flat, depth still counts.
+    pub(super) fn area_for_balance(&self, rest: &RemainingMesh<'_>) -> f64 {
+        self.mean_area(rest).max(LEAST_AREA * self.extent)
     }
 
     /// What it costs that the surface is that far from the full one.

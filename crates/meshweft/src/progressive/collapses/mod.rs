@@ -37,6 +37,7 @@ use crate::error::MeshError;
 use crate::mesh::Mesh;
 use crate::progressive::progressive_mesh::{ProgressiveMesh, StopReason};
 pub use attributes::AttributeWeights;
+pub(crate) use balance::told_from_point;
 use build::Builder;
 use points::WeldedPoints;
 use remaining::RemainingMesh;
