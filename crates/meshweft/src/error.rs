@@ -22,7 +22,7 @@ pub enum MeshError {
         /// How many there are.
         len: usize,
     },
-    /// More vertices or faces than 32-bit numbers can count.
+    /// More vertices or faces than can be numbered: 32 bits are a number, some of which an algorithm may need.
     TooLarge {
         /// What there is too much of, such as `"vertices"` or `"faces"`.
         what: &'static str,
@@ -83,7 +83,7 @@ impl fmt::Display for MeshError {
                 )
             }
             Self::TooLarge { what, count, limit } => {
-                write!(f, "{count} {what}: at most {limit} fit in 32-bit indices")
+                write!(f, "{count} {what}: at most {limit} can be numbered here")
             }
             Self::NotAPermutation {
                 position,

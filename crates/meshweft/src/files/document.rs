@@ -311,9 +311,15 @@ impl Document {
 
     /// The positions of every mesh, if all have such; what meshes share is there once.
     pub(crate) fn all_positions(&self) -> Result<Option<Vec<SharedPositions>>, FileError> {
+        self.positions_of_each().collect()
+    }
+
+    /// The positions of one mesh after the other, `None` where it has none; what meshes share is read once.
+    pub(crate) fn positions_of_each(
+        &self,
+    ) -> impl Iterator<Item = Result<Option<SharedPositions>, FileError>> {
         let mut known = BTreeMap::new();
-        let meshes = 0..self.meshes().len();
-        let each = meshes.map(|mesh| {
+        (0..self.meshes().len()).map(move |mesh| {
             let info = self.position_info(mesh);
             let store = info.and_then(|info| self.content.store(mesh, &info));
             if let Some(shared) = store.and_then(|store| known.get(&store)) {
@@ -324,8 +330,7 @@ impl Document {
                 known.insert(store, Rc::clone(positions));
             }
             Ok(positions)
-        });
-        each.collect()
+        })
     }
 
     /// A number of where the values of an attribute are stored: meshes with the same number share them.
