@@ -1,6 +1,7 @@
 //! Limits on long work, and progress reports. There is no clock in this library.
 
 use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How much a search may do, in *steps*: a step is one rollout that is committed.
 ///
@@ -78,6 +79,45 @@ pub trait Progress: Sync {
 }
 
 impl Progress for () {}
+
+/// The progress of a part of the work, from one fraction of the whole to another.
+pub(crate) struct PartOfWork<'a> {
+    whole: &'a dyn Progress,
+    start: f64,
+    end: f64,
+    is_stopped: AtomicBool,
+}
+
+impl<'a> PartOfWork<'a> {
+    pub(crate) fn new(whole: &'a dyn Progress, start: f64, end: f64) -> Self {
+        Self {
+            whole,
+            start,
+            end,
+            is_stopped: AtomicBool::new(false),
+        }
+    }
+
+    /// Whether it was said in this part that the work stops.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.is_stopped.load(Ordering::Relaxed)
+    }
+}
+
+impl Progress for PartOfWork<'_> {
+    fn report(&self, fraction: f64) -> ControlFlow<()> {
+        let fraction = self.start + fraction * (self.end - self.start);
+        let answer = self.whole.report(fraction);
+        if answer.is_break() {
+            self.is_stopped.store(true, Ordering::Relaxed);
+        }
+        answer
+    }
+
+    fn time_spent(&self) -> Option<f64> {
+        self.whole.time_spent()
+    }
+}
 
 #[cfg(test)]
 mod tests {

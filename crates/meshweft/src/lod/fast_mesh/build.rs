@@ -9,6 +9,7 @@ use crate::attribute::Attribute;
 use crate::error::MeshError;
 use crate::index::MAX_FACES;
 use crate::mesh::Mesh;
+use crate::progress::{PartOfWork, Progress};
 use crate::progressive::{AttributeWeights, Collapses};
 
 /// Makes vertex hierarchies.
@@ -59,6 +60,19 @@ impl FastMesh {
         mesh: &Mesh,
         attributes: &[Attribute],
     ) -> Result<VertexHierarchy, MeshError> {
+        self.build_with(mesh, attributes, &())
+    }
+
+    /// The same, and says how far it is. Where `progress` stops it, the hierarchy is one of fewer levels: more vertices are roots.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub fn build_with(
+        &self,
+        mesh: &Mesh,
+        attributes: &[Attribute],
+        progress: &dyn Progress,
+    ) -> Result<VertexHierarchy, MeshError> {
         let limit = 1 << 28;
         if mesh.vertex_count() >= limit {
             return Err(MeshError::TooLarge {
@@ -68,9 +82,9 @@ impl FastMesh {
             });
         }
         let Some(sorted) = SortedMesh::new(mesh, attributes) else {
-            return self.hierarchy(mesh, attributes);
+            return self.hierarchy(mesh, attributes, progress);
         };
-        let mut hierarchy = self.hierarchy(&sorted.mesh, &sorted.attributes)?;
+        let mut hierarchy = self.hierarchy(&sorted.mesh, &sorted.attributes, progress)?;
         for vertex in &mut hierarchy.source_vertices {
             *vertex = sorted.old_vertex(*vertex);
         }
@@ -86,12 +100,14 @@ impl FastMesh {
         &self,
         mesh: &Mesh,
         attributes: &[Attribute],
+        progress: &dyn Progress,
     ) -> Result<VertexHierarchy, MeshError> {
         let collapses = Collapses {
             weights: self.weights,
             ..Collapses::default()
         };
-        let (removals, point_of) = collapses.build_balanced(mesh, attributes)?;
+        let (removals, point_of) =
+            collapses.build_balanced(mesh, attributes, &PartOfWork::new(progress, 0.0, 0.5))?;
         let slots = mesh.face_count() + removals.last_level();
         if slots > MAX_FACES {
             return Err(MeshError::TooLarge {
@@ -101,11 +117,19 @@ impl FastMesh {
             });
         }
         let mut replay = Replay::new(mesh.positions(), &removals, point_of);
-        for level in 0..removals.last_level() {
+        let last = removals.last_level();
+        for level in 0..last {
+            let part = 0.5 + 0.2 * level as f64 / last as f64;
+            if level % 4096 == 0 && progress.report(part).is_break() {
+                break;
+            }
             replay.collapse(removals.collapse(level));
         }
-        replay.measure(Measure::Now);
-        replay.measure(Measure::Larger);
+        for (measure, done) in [(Measure::Now, 0.7), (Measure::Larger, 0.85)] {
+            if progress.report(done).is_continue() {
+                replay.measure(measure);
+            }
+        }
         Ok(numbering::finish(replay))
     }
 }

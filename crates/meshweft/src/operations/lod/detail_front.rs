@@ -8,6 +8,7 @@ use super::source::{LodSource, SourceKind, StoredFile};
 use crate::files::{Document, Note};
 use crate::geometry::Ball;
 use crate::lod::fast_mesh::{CameraView, Front, HierarchyError};
+use crate::progress::{PartOfWork, Progress};
 
 /// A source whose coarsest mesh is there.
 pub(super) struct LoadedFront {
@@ -17,14 +18,18 @@ pub(super) struct LoadedFront {
     pub(super) ball: Ball,
     /// What the reader of the file leaves as it is.
     pub(super) notes: Vec<Note>,
+    /// Which fraction of all work is done.
+    pub(super) done: f64,
+    /// Whether the caller stopped it.
+    pub(super) is_stopped: bool,
 }
 
 impl LoadedFront {
     /// The front of a source.
-    pub(super) fn new(source: LodSource<'_>) -> Result<Self, LodError> {
+    pub(super) fn new(source: LodSource<'_>, progress: &dyn Progress) -> Result<Self, LodError> {
         match source.kind {
-            SourceKind::Document(document) => Self::of_document(document),
-            SourceKind::Opened(document) => Self::of_document(&document),
+            SourceKind::Document(document) => Self::of_document(document, progress),
+            SourceKind::Opened(document) => Self::of_document(&document, progress),
             SourceKind::Stored(stored) => {
                 let file = stored.path.clone();
                 let hierarchy = stored.front.front().hierarchy();
@@ -35,6 +40,8 @@ impl LoadedFront {
                         detail: DetailFront::Stored(stored),
                         ball,
                         notes: Vec::new(),
+                        done: 0.0,
+                        is_stopped: false,
                     }),
                     None => Err(LodError::NoFaces { file }),
                 }
@@ -42,13 +49,17 @@ impl LoadedFront {
         }
     }
 
-    fn of_document(document: &Document) -> Result<Self, LodError> {
-        let loaded = load(document)?;
+    fn of_document(document: &Document, progress: &dyn Progress) -> Result<Self, LodError> {
+        let done = 0.5;
+        let part = PartOfWork::new(progress, 0.0, done);
+        let loaded = load(document, &part)?;
         Ok(Self {
             file: document.path().to_owned(),
             detail: DetailFront::Whole(Box::new(Front::new(loaded.hierarchy))),
             ball: loaded.ball,
             notes: document.notes().to_vec(),
+            done,
+            is_stopped: part.is_stopped(),
         })
     }
 }

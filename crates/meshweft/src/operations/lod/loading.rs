@@ -12,6 +12,7 @@ use crate::index::index32;
 use crate::lod::fast_mesh::{FastMesh, VertexHierarchy};
 use crate::mesh::Mesh;
 use crate::operations::plain_meshes::plain_meshes;
+use crate::progress::Progress;
 
 /// What is walked around.
 pub(super) struct Loaded {
@@ -21,10 +22,10 @@ pub(super) struct Loaded {
 }
 
 /// Joins the meshes of a document, and makes the hierarchy of all. Positions and faces count, as the file stores them.
-pub(super) fn load(document: &Document) -> Result<Loaded, LodError> {
+pub(super) fn load(document: &Document, progress: &dyn Progress) -> Result<Loaded, LodError> {
     let file = || document.path().to_owned();
     let JoinedMesh { mesh, .. } = joined(document, &[])?;
-    let hierarchy = FastMesh::default().build(&mesh, &[]);
+    let hierarchy = FastMesh::default().build_with(&mesh, &[], progress);
     let hierarchy = hierarchy.map_err(|error| LodError::Mesh {
         file: file(),
         error,

@@ -19,7 +19,7 @@ use crate::lod::geometry_cache::Eviction;
 use crate::mesh::Mesh;
 
 pub(super) fn bytes_of(document: &Document) -> Vec<u8> {
-    let loaded = LoadedFront::new(document.into()).unwrap();
+    let loaded = LoadedFront::new(document.into(), &()).unwrap();
     loaded.detail.front().hierarchy().to_bytes()
 }
 
@@ -163,7 +163,7 @@ fn a_block_that_cannot_be_read_is_named_with_its_frame() {
 
 /// Where the blocks of points begin.
 fn end_of_roots(bytes: &[u8]) -> usize {
-    let loaded = LoadedFront::new(stored(bytes)).unwrap();
+    let loaded = LoadedFront::new(stored(bytes), &()).unwrap();
     let [_, read] = loaded.detail.bytes().unwrap();
     usize::try_from(read).unwrap()
 }

@@ -16,7 +16,7 @@ use crate::geometry::{Ball, Surface, vertex_normals};
 use crate::index::index32;
 use crate::lod::fast_mesh::{Camera, Front};
 use crate::parallel;
-use crate::progress::Progress;
+use crate::progress::{PartOfWork, Progress};
 
 /// Measures some frames of a path: how far the mesh at full detail is from what is drawn, in pixels.
 ///
@@ -51,7 +51,9 @@ pub fn lod_verify<'a>(
         mut detail,
         ball,
         notes,
-    } = LoadedFront::new(source.into())?;
+        done,
+        mut is_stopped,
+    } = LoadedFront::new(source.into(), progress)?;
     let roots = detail.front().vertex_count();
     detail.refine_fully()?;
     let full = DetailedMesh::new(detail.front(), ball);
@@ -60,8 +62,9 @@ pub fn lod_verify<'a>(
     // All frames.
     let mut all = CollectedErrors::new(cameras.len().saturating_mul(full.points.len()));
     let mut frames = Vec::new();
-    let mut is_stopped = false;
-    for (place, &(number, camera)) in cameras.iter().enumerate() {
+    let progress = PartOfWork::new(progress, done, 1.0);
+    let measured = if is_stopped { 0 } else { cameras.len() };
+    for (place, &(number, camera)) in cameras.iter().enumerate().take(measured) {
         let view = camera.view(options.tolerance);
         let view = view.map_err(|error| LodError::View {
             frame: number,

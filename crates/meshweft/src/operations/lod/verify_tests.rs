@@ -302,7 +302,7 @@ fn measuring_can_be_stopped() {
     }
     let options = LodVerifyOptions::default();
     let document = hills();
-    for (at, frames) in [(0.0, 0), (0.5, 4), (1.0, 8)] {
+    for (at, frames) in [(0.0, 0), (0.75, 4), (1.0, 8)] {
         let stop = StopAt(at, AtomicUsize::new(0));
         let report = lod_verify(&document, &options, &stop).unwrap();
         assert_eq!(

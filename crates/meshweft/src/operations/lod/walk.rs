@@ -12,7 +12,7 @@ use crate::lod::fast_mesh::CameraView;
 use crate::lod::geometry_cache::{
     FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
 };
-use crate::progress::Progress;
+use crate::progress::{PartOfWork, Progress};
 
 /// Walks around the meshes of a document, all as one, or around a `.mwl` file, and counts what each frame would send to a graphics
 /// card.
@@ -57,7 +57,9 @@ pub fn lod_walk<'a>(
         detail,
         ball,
         notes,
-    } = LoadedFront::new(source.into())?;
+        done,
+        is_stopped,
+    } = LoadedFront::new(source.into(), progress)?;
     let build_seconds = clock() - start;
     let coarsest = detail.front();
     let mut report = LodWalkReport {
@@ -72,14 +74,16 @@ pub fn lod_walk<'a>(
         frames: Vec::new(),
         optimum: None,
         build_seconds,
-        is_stopped: false,
+        is_stopped,
         notes,
     };
 
     // All frames.
     let mut walker = Walker::new(detail, options)?;
+    let progress = PartOfWork::new(progress, done, 1.0);
     let count = options.path.frame_count(options.frames);
-    for number in 0..count {
+    let walked = if is_stopped { 0 } else { count };
+    for number in 0..walked {
         let camera = options.path.camera(ball, number, count, options.size);
         let view = camera.view(options.tolerance);
         let view = view.map_err(|error| LodError::View {

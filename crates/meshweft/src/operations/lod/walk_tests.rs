@@ -99,7 +99,7 @@ fn the_card_has_the_front_in_every_frame() {
                 passes,
                 ..options(path.clone(), slots)
             };
-            let loaded = LoadedFront::new((&document).into()).unwrap();
+            let loaded = LoadedFront::new((&document).into(), &()).unwrap();
             let mut walker = Walker::new(loaded.detail, &options).unwrap();
             let mut active = walker.detail.front().vertex_count();
             assert!(active > 0);
@@ -286,17 +286,32 @@ fn the_report_is_json() {
 
 #[test]
 fn a_walk_can_be_stopped() {
-    struct Stop;
-    impl Progress for Stop {
+    struct StopFrom(f64);
+    impl Progress for StopFrom {
         fn report(&self, fraction: f64) -> ControlFlow<()> {
-            match fraction < 0.5 {
+            assert!((0.0..=1.0).contains(&fraction));
+            match fraction < self.0 {
                 true => ControlFlow::Continue(()),
                 false => ControlFlow::Break(()),
             }
         }
     }
-    let report = lod_walk(&hills(), &options(CameraPath::Zoom, 9000), &|| 0.0, &Stop).unwrap();
-    assert!((report.is_stopped, report.frames.len()) == (true, 30));
+    // Half of the work is the hierarchy.
+    let (document, options) = (hills(), options(CameraPath::Zoom, 9000));
+    for (part, frames, is_stopped) in [
+        (0.1, 0, true),
+        (0.75, 30, true),
+        (1.0, 60, false),
+        (2.0, 60, false),
+    ] {
+        let found = lod_walk(&document, &options, &|| 0.0, &StopFrom(part)).unwrap();
+        assert_eq!(
+            (found.frames.len(), found.is_stopped),
+            (frames, is_stopped),
+            "{part}"
+        );
+        assert_eq!(found.mesh.faces, 2 * 2 * 40 * 40);
+    }
 }
 
 #[test]
@@ -327,7 +342,7 @@ fn what_cannot_be_walked_around_is_told() {
 
     // A camera that sees nothing.
     let document = hills();
-    let loaded = LoadedFront::new((&document).into()).unwrap();
+    let loaded = LoadedFront::new((&document).into(), &()).unwrap();
     let camera = CameraPath::Circle.camera(loaded.ball, 0, 9, [9, 9]);
     let blind = crate::lod::fast_mesh::Camera {
         target: camera.eye,

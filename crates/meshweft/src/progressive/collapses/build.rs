@@ -10,7 +10,11 @@ use super::remaining::{FanFace, NONE, RemainingMesh};
 use super::settings::Collapses;
 use crate::attribute::Attribute;
 use crate::index::index32;
+use crate::progress::Progress;
 use crate::progressive::records::{Records, SidePair};
+
+/// Points that are looked at between two reports of the progress.
+const TOLD_AFTER: u64 = 1024;
 
 /// What is known while points are removed.
 pub(super) struct Builder<'a> {
@@ -73,14 +77,22 @@ impl<'a> Builder<'a> {
 
     /// Removes points as long as there are too many faces; returns what was done and whether the error was
     /// the limit.
-    pub(super) fn run(mut self) -> (Records, bool) {
+    pub(super) fn run(mut self, progress: &dyn Progress) -> (Records, bool) {
         self.leave_degenerate();
-        while self.rest.live_faces() > self.settings.faces {
+        let first = self.rest.live_faces().max(1);
+        let (mut turns, mut is_stopped) = (0_u64, false);
+        while !is_stopped && self.rest.live_faces() > self.settings.faces {
             let before = self.records.len();
             self.enqueue_all();
             while self.rest.live_faces() > self.settings.faces
+                && !is_stopped
                 && let Some(next) = self.queue.pop()
             {
+                turns += 1;
+                if turns.is_multiple_of(TOLD_AFTER) {
+                    let left = self.rest.live_faces() as f64 / first as f64;
+                    is_stopped = progress.report(1.0 - left).is_break();
+                }
                 match (next as usize).checked_sub(self.rest.point_count()) {
                     None => self.visit(next),
                     Some(part) => self.drop_part(index32(part)),

@@ -35,6 +35,7 @@ mod witnesses;
 use crate::attribute::{Attribute, Domain};
 use crate::error::MeshError;
 use crate::mesh::Mesh;
+use crate::progress::Progress;
 use crate::progressive::progressive_mesh::{ProgressiveMesh, StopReason};
 pub use attributes::AttributeWeights;
 pub(crate) use balance::told_from_point;
@@ -63,7 +64,7 @@ impl Collapses {
         mesh: &Mesh,
         attributes: &[Attribute],
     ) -> Result<ProgressiveMesh, MeshError> {
-        let (mesh, _) = self.built(mesh, attributes, false)?;
+        let (mesh, _) = self.built(mesh, attributes, false, &())?;
         Ok(mesh)
     }
 
@@ -71,17 +72,18 @@ impl Collapses {
     /// faces, but the first one if it only takes faces with two corners at one point. No removal is far above another, and the vertices of
     /// the faces that leave can be told from those around.
     ///
-    /// Give it settings that neither cross seams nor drop parts.
+    /// Give it settings that neither cross seams nor drop parts. Stopped by `progress`, it has the removals so far.
     pub(crate) fn build_balanced(
         &self,
         mesh: &Mesh,
         attributes: &[Attribute],
+        progress: &dyn Progress,
     ) -> Result<(ProgressiveMesh, Vec<u32>), MeshError> {
         debug_assert!(
             !self.cross_seams && !self.drop_parts,
             "one point, one or two faces"
         );
-        self.built(mesh, attributes, true)
+        self.built(mesh, attributes, true, progress)
     }
 
     /// The mesh with its removals, and the point of each vertex.
@@ -90,6 +92,7 @@ impl Collapses {
         mesh: &Mesh,
         attributes: &[Attribute],
         is_balanced: bool,
+        progress: &dyn Progress,
     ) -> Result<(ProgressiveMesh, Vec<u32>), MeshError> {
         let length = |what, found: usize| match found == mesh.vertex_count() {
             true => Ok(()),
@@ -116,7 +119,7 @@ impl Collapses {
         if is_balanced {
             builder = builder.for_hierarchy();
         }
-        let (records, is_limited) = builder.run();
+        let (records, is_limited) = builder.run(progress);
         let left = faces.len() - records.left_after(records.len());
         let stop = match (left <= self.faces, is_limited) {
             (true, _) => StopReason::Faces,
