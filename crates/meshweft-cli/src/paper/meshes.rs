@@ -9,19 +9,22 @@ use meshweft::{Limits, Mesh};
 /// Meshes above this many faces are large: they are left out where each takes many runs.
 pub(super) const LARGE: usize = 200_000;
 
-/// The largest mesh of the first file with one of these names, there or in a folder `meshes`, with its
-/// positions if it has any.
-pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mesh)>> {
+/// The first file with one of these names, there or in a folder `meshes`.
+pub(super) fn find(folder: &Path, names: &[&str]) -> Option<PathBuf> {
     let folders = [folder.to_owned(), folder.join("meshes")];
     let names = names.iter().flat_map(|name| {
         let endings = ["off", "ply", "obj", "glb", "gltf"].into_iter();
         endings.flat_map(move |e| [format!("{name}.{e}"), format!("{name}.{e}.gz")])
     });
     let mut paths = names.flat_map(|name| folders.each_ref().map(|f| f.join(&name)));
-    let Some(file) = paths.find(|path| path.is_file()) else {
+    paths.find(|path| path.is_file())
+}
+
+/// The largest mesh of that file, with its positions if it has any.
+pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mesh)>> {
+    let Some(file) = find(folder, names) else {
         return Ok(None);
     };
-
     let document = Document::open(&file, Limits::default())?;
     let meshes = document.meshes().iter().enumerate();
     let Some((number, largest)) = meshes.max_by_key(|(_, it)| it.mesh.face_count()) else {
@@ -36,9 +39,14 @@ pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mes
 
 /// Says that the folder has none of a paper's meshes, and how they are looked for.
 pub(super) fn none_found(folder: &Path) -> Error {
+    none_like(folder, "bunny.ply, horse.obj or fandisk.off")
+}
+
+/// The same for a paper with other meshes.
+pub(super) fn none_like(folder: &Path, examples: &str) -> Error {
     anyhow!(
-        "{}: none of the paper's meshes is here. Files are looked for by name, such as bunny.ply, \
-         horse.obj or fandisk.off, optionally followed by .gz, and in a folder `meshes`",
+        "{}: none of the paper's meshes is here. Files are looked for by name, such as {examples}, optionally \
+         followed by .gz, and in a folder `meshes`",
         folder.display()
     )
 }

@@ -5,6 +5,7 @@ mod bogomjakov_gotsman;
 mod figure;
 mod irregular;
 mod kim_lee;
+mod lario;
 mod levels;
 mod lin_yu;
 mod lin_zhang;
@@ -16,6 +17,7 @@ use clap::{Args, Subcommand};
 use arguments::OfPaper;
 use bogomjakov_gotsman::BogomjakovGotsman;
 use kim_lee::KimLee;
+use lario::Lario;
 use lin_zhang::LinZhang;
 
 #[derive(Debug, Args)]
@@ -62,6 +64,16 @@ enum WhichPaper {
     ///   meshweft paper kim-lee --data folder-with-meshes --pictures folder
     #[command(verbatim_doc_comment)]
     KimLee(KimLee),
+    /// Lario, Pajarola, Tirado: Cached Geometry Manager for View-dependent LOD Rendering (2005)
+    ///
+    /// Tables 1 to 3 and figures 7 and 8, on the meshes that are found or named: how many vertices each policy inserts on
+    /// three paths around a mesh, whether they are ordered as in the paper or why not, what is sent, and how long the level
+    /// of detail, the slots and the indices take. Each path is walked once and drawn by every policy.
+    ///
+    ///   meshweft paper lario --data folder-with-meshes
+    ///   meshweft paper lario dragon.ply.gz --pictures folder
+    #[command(verbatim_doc_comment)]
+    Lario(Lario),
 }
 
 /// Prints the figures of a paper for the meshes that are found.
@@ -71,5 +83,6 @@ pub(crate) fn run(arguments: &Paper) -> Result<()> {
         WhichPaper::BogomjakovGotsman(arguments) => bogomjakov_gotsman::run(arguments),
         WhichPaper::LinZhang(arguments) => lin_zhang::run(arguments),
         WhichPaper::KimLee(arguments) => kim_lee::run(arguments),
+        WhichPaper::Lario(arguments) => lario::run(arguments),
     }
 }

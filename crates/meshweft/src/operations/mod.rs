@@ -82,9 +82,9 @@ pub use json::SCHEMA;
 pub use lod::{
     Camera, CameraPath, Eviction, ExtractedMesh, LodBuildOptions, LodBuildReport, LodDetail,
     LodError, LodExtractOptions, LodExtractReport, LodSource, LodVerifyOptions, LodVerifyReport,
-    LodWalkOptions, LodWalkReport, MOST_FRAMES, PixelErrors, VerifiedFrame, WalkFrame, WalkOptimum,
-    WalkOptionError, WalkQuantity, WalkSummary, WalkedMesh, cameras_from_json, lod_build,
-    lod_extract, lod_verify, lod_walk,
+    LodWalkOptions, LodWalkReport, MOST_FRAMES, PixelErrors, RecordedWalk, VerifiedFrame,
+    WalkFrame, WalkOptimum, WalkOptionError, WalkQuantity, WalkRecorder, WalkSummary, WalkedMesh,
+    cameras_from_json, lod_build, lod_extract, lod_verify, lod_walk,
 };
 pub use methods::{InBatches, Method, grid_orders, linear_arrangement_cost};
 #[cfg(feature = "files")]

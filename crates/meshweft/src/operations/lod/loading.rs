@@ -15,6 +15,7 @@ use crate::operations::plain_meshes::plain_meshes;
 use crate::progress::Progress;
 
 /// What is walked around.
+#[derive(Debug)]
 pub(super) struct Loaded {
     pub(super) hierarchy: VertexHierarchy,
     /// The smallest that has all vertices of the hierarchy in it.

@@ -3,7 +3,7 @@
 //! `build` makes a `.mwl` file of one, and `extract` takes a mesh from it.
 //!
 //! Read `walk` for what happens in a frame, `paths` for where the eye goes, `loading` for what a file is walked around as, `verify` for what
-//! is measured.
+//! is measured, `recording` for one walk drawn by several policies.
 
 mod build;
 mod camera_file;
@@ -18,6 +18,9 @@ mod options;
 mod paths;
 mod pixel_errors;
 mod read_back;
+mod recording;
+#[cfg(test)]
+mod recording_tests;
 mod report;
 mod source;
 #[cfg(test)]
@@ -40,6 +43,7 @@ pub use frame::{WalkFrame, WalkQuantity};
 pub use options::{LodError, LodWalkOptions, WalkOptionError};
 pub use paths::CameraPath;
 pub use pixel_errors::PixelErrors;
+pub use recording::{RecordedWalk, WalkRecorder};
 pub use report::{LodWalkReport, WalkOptimum, WalkSummary, WalkedMesh};
 pub use source::LodSource;
 pub use verify::lod_verify;
