@@ -1,0 +1,102 @@
+//! How far a drawn surface is from the full mesh, in pixels.
+
+use meshweft::geometry::Surface;
+use meshweft::lod::fast_mesh::Camera;
+use rayon::prelude::*;
+
+use crate::scene::Scene;
+
+/// The vertices of the full mesh that a camera sees, each with how many pixels a length of 1 is there.
+pub(crate) struct Seen {
+    vertices: Vec<(u32, f64)>,
+}
+
+impl Seen {
+    /// In the picture, with a normal that faces the eye.
+    pub(crate) fn by(camera: &Camera, scene: &Scene) -> Self {
+        let ahead = unit(sub(camera.target, camera.eye));
+        let right = unit(cross(ahead, camera.up));
+        let up = cross(right, ahead);
+        let [width, height] = camera.size.map(f64::from);
+        let half_height = (0.5 * camera.field_of_view.to_radians()).tan();
+        let half_width = half_height * width / height;
+
+        let sees = |(vertex, (position, normal)): (u32, (&[f32; 3], &[f32; 3]))| {
+            let way = sub(position.map(f64::from), camera.eye);
+            let depth = dot(way, ahead);
+            let is_inside = depth > 0.0
+                && dot(way, right).abs() <= depth * half_width
+                && dot(way, up).abs() <= depth * half_height;
+            let faces_eye = dot(normal.map(f64::from), way) < 0.0;
+            let pixels = 0.5 * height / half_height / dot(way, way).sqrt();
+            (is_inside && faces_eye).then_some((vertex, pixels))
+        };
+        let vertices = scene.full.positions().iter().zip(&scene.normals);
+        Self {
+            vertices: (0..).zip(vertices).filter_map(sees).collect(),
+        }
+    }
+
+    /// The errors in pixels where these faces are drawn.
+    pub(crate) fn errors(&self, scene: &Scene, drawn: &[[u32; 3]]) -> Vec<f64> {
+        let positions = scene.full.positions();
+        let surface = Surface::new(positions, drawn);
+        let error = |&(vertex, pixels): &(u32, f64)| {
+            pixels * distance(&surface, positions[vertex as usize])
+        };
+        self.vertices.par_iter().map(error).collect()
+    }
+
+    /// The same where the distances of all vertices are known.
+    pub(crate) fn errors_by<'a>(&'a self, distances: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let error = |&(vertex, pixels): &(u32, f64)| pixels * distances[vertex as usize];
+        self.vertices.iter().map(error)
+    }
+}
+
+/// How far each vertex of the full mesh is from these faces.
+pub(crate) fn distances(scene: &Scene, drawn: &[[u32; 3]]) -> Vec<f64> {
+    let positions = scene.full.positions();
+    let surface = Surface::new(positions, drawn);
+    let distance = |&position: &[f32; 3]| distance(&surface, position);
+    positions.par_iter().map(distance).collect()
+}
+
+fn distance(surface: &Surface<'_>, position: [f32; 3]) -> f64 {
+    let nearest = surface.nearest(position.map(f64::from));
+    nearest.map_or(f64::INFINITY, |nearest| nearest.distance)
+}
+
+/// The error that 99.9 % of all do not exceed, and the largest.
+pub(crate) fn summary(mut errors: Vec<f64>) -> [f64; 2] {
+    if errors.is_empty() {
+        return [0.0; 2];
+    }
+    let place = (errors.len() - 1) * 999 / 1000;
+    let (_, &mut most_of_all, above) = errors.select_nth_unstable_by(place, f64::total_cmp);
+    [
+        most_of_all,
+        above.iter().copied().fold(most_of_all, f64::max),
+    ]
+}
+
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| a[i] - b[i])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn unit(a: [f64; 3]) -> [f64; 3] {
+    let length = dot(a, a).sqrt();
+    a.map(|x| x / length)
+}
