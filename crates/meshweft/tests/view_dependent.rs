@@ -10,9 +10,11 @@ mod placed;
 
 use std::collections::{BTreeSet, HashMap};
 
-use meshweft::Mesh;
+use meshweft::files::Document;
 use meshweft::geometry::Ball;
 use meshweft::lod::fast_mesh::{Camera, CameraView, FastMesh, FrameBudget, Front, VertexHierarchy};
+use meshweft::operations::{CameraPath, LodVerifyOptions, lod_verify};
+use meshweft::{Limits, Mesh};
 use placed::open;
 
 /// Meshes that are walked around: closed ones, some with borders, and one with points where it is not a manifold.
@@ -349,6 +351,33 @@ fn a_budget_is_kept_in_every_frame_and_spent_well() {
         "{count} frames: {mean:.3} times in the mean, {worst:.3} at most; {inside} without an end"
     );
     assert!(count > 50.0 && worst <= 1.15, "{count} frames, {worst}");
+}
+
+/// What is drawn is as near as was asked for: nearly all vertices are within the tolerance, and none is far off.
+#[test]
+fn errors_are_what_was_asked_for() {
+    let Some(folder) = data::folder() else {
+        return;
+    };
+    for name in ["bunny_res2.ply.gz", "elephant_holes.off.gz", "spot.obj.gz"] {
+        let path = folder.join("meshes").join(name);
+        let document = Document::open(&path, Limits::default()).unwrap();
+        for path in CameraPath::SHAPES {
+            for tolerance in [1.5, 0.12] {
+                let mut options = LodVerifyOptions::default();
+                options.path = path.clone();
+                options.tolerance = tolerance;
+                options.frames = Some(3);
+                let errors = lod_verify(&document, &options, &()).unwrap().errors;
+                let (share, worst) = (errors.share(), errors.worst);
+                let case = format!(
+                    "{name}, {}, {tolerance} px: {share} %, {worst}",
+                    path.name()
+                );
+                assert!(share >= 99.9 && worst <= 2.5, "{case}");
+            }
+        }
+    }
 }
 
 /// Faces by the positions of their corners, each beginning with the least.
