@@ -1,7 +1,7 @@
 //! Which points of a hierarchy have not been read yet.
 
 /// How many points a block has.
-pub(super) const BLOCK_POINTS: u32 = 256;
+pub(super) const BLOCK_POINTS: u32 = 64;
 
 /// Blocks of points that may leave, from the first such point on.
 #[derive(Debug, Clone, Default)]

@@ -6,7 +6,7 @@
 //! | length of the head, CRC-32 of the head | 4 + 4, little-endian |
 //! | head: numbers, see [`StoredCounts`], faces at full detail, the ball around all points, then for each block its length, its CRC-32 and the largest error in it, then what attributes are, and a name: see [`stored_rows`] | |
 //! | block 0: the roots and the faces that never leave | |
-//! | blocks 1, 2 …: 256 points each, from coarse to fine | |
+//! | blocks 1, 2 …: 64 points each, from coarse to fine | |
 //!
 //! Numbers are varints, seven bits a byte, lowest first; positions, errors and radii are `f32`, the ball is four `f64`, little-endian. In a block each
 //! field has all its points one after the other, and last come the rows of their vertices. Points and half-edges are stored as

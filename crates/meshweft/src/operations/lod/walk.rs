@@ -30,7 +30,7 @@ use crate::progress::{PartOfWork, Progress};
 /// read.
 ///
 /// # Complexity
-/// That of [`FastMesh::build`](crate::lod::fast_mesh::FastMesh::build), and of [`Front::update`] for each frame.
+/// That of [`FastMesh::build`](crate::lod::fast_mesh::FastMesh::build), and of [`Front::update`](crate::lod::fast_mesh::Front::update) for each frame.
 ///
 /// ```no_run
 /// use std::path::Path;
