@@ -159,6 +159,7 @@ fn small_files() -> Vec<Vec<u8>> {
             let faces: Vec<_> = mesh.faces().iter().copied().take(most_faces).collect();
             let part = Mesh::new(mesh.positions().to_vec(), faces).unwrap();
             let hierarchy = FastMesh::default().build(&part, &attributes).unwrap();
+            let hierarchy = hierarchy.with_attributes(&attributes).unwrap();
             files.push(hierarchy.to_bytes());
         }
     }
@@ -170,8 +171,8 @@ fn damaged(file: &[u8], random: &mut SplitMix64) -> Vec<u8> {
     match random.below(8) {
         0 => bytes.truncate(random.below(bytes.len() + 1)),
         1 => bytes.extend([0; 3]),
-        // Numbers of the head, where they are few.
-        2 => bytes[random.below(40)] = u8::try_from(random.below(256)).unwrap(),
+        // Numbers of the head.
+        2 => bytes[random.below(90)] = u8::try_from(random.below(256)).unwrap(),
         _ => {
             for _ in 0..1 + random.below(4) {
                 let at = random.below(bytes.len());
