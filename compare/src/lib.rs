@@ -11,6 +11,7 @@ use meshweft::files::Document;
 use meshweft::order::{KCacheReorder, baselines, vertex_fetch};
 use meshweft::{CacheModel, Limits, Mesh, cache};
 
+pub mod clusters;
 #[cfg(feature = "draco")]
 pub mod codecs;
 pub mod counting;

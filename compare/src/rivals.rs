@@ -94,6 +94,19 @@ impl Meshopt {
 pub fn simplified(mesh: &Mesh, face_count: usize) -> Vec<[u32; 3]> {
     /// In units of the mesh's extent: no error is above.
     const ANY_ERROR: f32 = 1e10;
+    simplify(mesh, face_count.min(mesh.face_count()), ANY_ERROR)
+}
+
+/// The faces that meshoptimizer's `simplify` leaves when asked for as few as this error allows, in parts of the mesh's extent.
+///
+/// # Panics
+/// If the mesh has no positions.
+#[must_use]
+pub fn simplified_within(mesh: &Mesh, error: f32) -> Vec<[u32; 3]> {
+    simplify(mesh, 0, error)
+}
+
+fn simplify(mesh: &Mesh, face_count: usize, error: f32) -> Vec<[u32; 3]> {
     assert_eq!(mesh.positions().len(), mesh.vertex_count(), "no positions");
     let mut faces = vec![[0_u32; 3]; mesh.face_count()];
     // SAFETY: the first pointer is to room for as many indices as there are, the second to these
@@ -107,8 +120,8 @@ pub fn simplified(mesh: &Mesh, face_count: usize) -> Vec<[u32; 3]> {
             mesh.positions().as_ptr().cast(),
             mesh.vertex_count(),
             size_of::<[f32; 3]>(),
-            face_count.min(mesh.face_count()) * 3,
-            ANY_ERROR,
+            face_count * 3,
+            error,
             0,
             std::ptr::null_mut(),
         )

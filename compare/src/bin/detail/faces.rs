@@ -11,14 +11,17 @@ use crate::{PATHS, mean, worst};
 const TOLERANCES: [f64; 2] = [1.5, 0.5];
 /// Frames of a path that are measured.
 const LOOKS: usize = 6;
-/// Simplified meshes have the face counts of a series in which each is that many times the one before.
-const STEP: f64 = 1.02;
-const LEAST_FACES: f64 = 100.0;
+/// Simplified meshes have the errors of a series, in parts of the mesh's extent, in which each is that part of the one before.
+const LARGEST_ERROR: f64 = 0.05;
+const STEP: f64 = 1.0 / 1.05;
+/// All of the series that are looked at, and every so many of them first.
+const STEPS: usize = 200;
+const STRIDE: usize = 5;
 
 pub(crate) fn print(scenes: &[Scene]) -> Result<(), String> {
     println!(
-        "Faces of the front, means over {LOOKS} frames, and of the coarsest mesh of meshoptimizer's `simplify` (any error \
-         allowed) whose p99.9 over the same frames is not larger. p99.9 is over all visible vertices of all frames, in \
+        "Faces of the front, means over {LOOKS} frames, and of the coarsest mesh of meshoptimizer's `simplify` at one error \
+         for all whose p99.9 over the same frames is not larger. p99.9 is over all visible vertices of all frames, in \
          pixels.\n"
     );
     println!(
@@ -87,34 +90,23 @@ impl<'a> Simplified<'a> {
 
     /// The number of faces of the coarsest mesh that has at most this p99.9, with its p99.9 and its worst error.
     fn coarsest(&mut self, seen: &[Seen], most: f64) -> Option<(usize, [f64; 2])> {
-        // The series ends with the full mesh, whose errors are 0.
-        let all = self.scene.full.face_count() as f64;
-        let (mut low, mut high) = (0, steps(all));
-        let mut found = None;
-        while low < high {
-            let middle = (low + high) / 2;
-            let (faces, summary) = self.summary(middle, seen);
-            match summary[0] <= most {
-                true => {
-                    found = Some((faces, summary));
-                    high = middle;
-                }
-                false => low = middle + 1,
-            }
-        }
-        found
+        // A smaller error need not give a smaller p99.9, so the search begins with the coarsest.
+        let mut look = |step: usize| {
+            let found = self.summary(step, seen);
+            (found.1[0] <= most).then_some(found)
+        };
+        let step = (0..STEPS)
+            .step_by(STRIDE)
+            .find(|&step| look(step).is_some())?;
+        (step.saturating_sub(STRIDE - 1)..=step).find_map(look)
     }
 
     fn summary(&mut self, step: usize, seen: &[Seen]) -> (usize, [f64; 2]) {
         let scene = self.scene;
         let (faces, distances) = self.made.entry(step).or_insert_with(|| {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a number of faces"
-            )]
-            let asked = (LEAST_FACES * STEP.powf(step as f64)) as usize;
-            let faces = rivals::simplified(&scene.full, asked);
+            let error = LARGEST_ERROR * STEP.powf(step as f64);
+            #[expect(clippy::cast_possible_truncation, reason = "as exact as it takes them")]
+            let faces = rivals::simplified_within(&scene.full, error as f32);
             #[expect(clippy::cast_possible_truncation, reason = "as exact as positions are")]
             let distances = distances(scene, &faces).into_iter().map(|it| it as f32);
             (faces.len(), distances.collect())
@@ -123,15 +115,4 @@ impl<'a> Simplified<'a> {
         let errors = seen.iter().flat_map(|seen| seen.errors_by(&distances));
         (*faces, summary(errors.collect()))
     }
-}
-
-/// How many steps of the series are below a number of faces.
-fn steps(faces: f64) -> usize {
-    let mut count = 0;
-    let mut reached = LEAST_FACES;
-    while reached < faces {
-        reached *= STEP;
-        count += 1;
-    }
-    count
 }

@@ -11,25 +11,52 @@ pub(crate) struct Seen {
     vertices: Vec<(u32, f64)>,
 }
 
+/// The picture of a camera: its axes, half its sides at distance 1, and how many pixels a length of 1 is there.
+pub(crate) struct Picture {
+    eye: [f64; 3],
+    axes: [[f64; 3]; 3],
+    half: [f64; 2],
+    pub(crate) scale: f64,
+}
+
+impl Picture {
+    pub(crate) fn of(camera: &Camera) -> Self {
+        let ahead = unit(sub(camera.target, camera.eye));
+        let right = unit(cross(ahead, camera.up));
+        let [width, height] = camera.size.map(f64::from);
+        let half_height = (0.5 * camera.field_of_view.to_radians()).tan();
+        Self {
+            eye: camera.eye,
+            axes: [right, cross(right, ahead), ahead],
+            half: [half_height * width / height, half_height],
+            scale: 0.5 * height / half_height,
+        }
+    }
+
+    /// The normals of its sides, inward; the sides go through the eye.
+    pub(crate) fn sides(&self) -> [[f64; 3]; 4] {
+        let [.., ahead] = self.axes;
+        [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)].map(|(axis, sign)| {
+            unit([0, 1, 2].map(|i| self.half[axis] * ahead[i] + sign * self.axes[axis][i]))
+        })
+    }
+
+    /// Whether the way from the eye to a place is inside.
+    fn has(&self, way: [f64; 3]) -> bool {
+        let [right, up, depth] = self.axes.map(|axis| dot(way, axis));
+        depth > 0.0 && right.abs() <= depth * self.half[0] && up.abs() <= depth * self.half[1]
+    }
+}
+
 impl Seen {
     /// In the picture, with a normal that faces the eye.
     pub(crate) fn by(camera: &Camera, scene: &Scene) -> Self {
-        let ahead = unit(sub(camera.target, camera.eye));
-        let right = unit(cross(ahead, camera.up));
-        let up = cross(right, ahead);
-        let [width, height] = camera.size.map(f64::from);
-        let half_height = (0.5 * camera.field_of_view.to_radians()).tan();
-        let half_width = half_height * width / height;
-
+        let picture = Picture::of(camera);
         let sees = |(vertex, (position, normal)): (u32, (&[f32; 3], &[f32; 3]))| {
-            let way = sub(position.map(f64::from), camera.eye);
-            let depth = dot(way, ahead);
-            let is_inside = depth > 0.0
-                && dot(way, right).abs() <= depth * half_width
-                && dot(way, up).abs() <= depth * half_height;
+            let way = sub(position.map(f64::from), picture.eye);
             let faces_eye = dot(normal.map(f64::from), way) < 0.0;
-            let pixels = 0.5 * height / half_height / dot(way, way).sqrt();
-            (is_inside && faces_eye).then_some((vertex, pixels))
+            let pixels = picture.scale / dot(way, way).sqrt();
+            (picture.has(way) && faces_eye).then_some((vertex, pixels))
         };
         let vertices = scene.full.positions().iter().zip(&scene.normals);
         Self {
