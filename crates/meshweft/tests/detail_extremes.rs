@@ -6,7 +6,7 @@ use meshweft::Mesh;
 use meshweft::lod::fast_mesh::{
     Camera, CameraView, FastMesh, FrameBudget, Front, VertexHierarchy, ViewError,
 };
-use meshweft::lod::geometry_cache::{Eviction, FrameMode, GeometryCache};
+use meshweft::lod::geometry_cache::{EvictionPolicy, FrameMode, GeometryCache};
 
 const CAMERA: Camera = Camera {
     eye: [7.0, 9.0, 30.0],
@@ -413,7 +413,8 @@ fn few_slots_draw_a_front() {
         .collect();
     for slots in [3, 4, 17, 90, 2000] {
         for has_passes in [false, true] {
-            let cache = GeometryCache::new(slots, errors.clone(), Eviction::FinestFirst).unwrap();
+            let cache =
+                GeometryCache::new(slots, errors.clone(), EvictionPolicy::FinestFirst).unwrap();
             let mut cache = if has_passes {
                 cache.with_passes()
             } else {

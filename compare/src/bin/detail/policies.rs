@@ -1,6 +1,6 @@
-//! Eviction policies against the fewest inserts that are possible.
+//! EvictionPolicy policies against the fewest inserts that are possible.
 
-use meshweft::lod::geometry_cache::{Eviction, GeometryCache, RecordedPath};
+use meshweft::lod::geometry_cache::{EvictionPolicy, GeometryCache, RecordedPath};
 
 use crate::scene::Scene;
 use crate::{FRAMES, PATHS, mean, worst};
@@ -9,11 +9,11 @@ use crate::{FRAMES, PATHS, mean, worst};
 const TOLERANCE: f64 = 0.18;
 const USUAL_SLOTS: usize = 65_536;
 /// The policies whose inserts are shown, ours last.
-const POLICIES: [(&str, Eviction); 4] = [
-    ("FA", Eviction::FirstAvailable),
-    ("LRU", Eviction::OldestFirst),
-    ("LRU + queue", Eviction::queued_by_error(10, 30)),
-    ("finest", Eviction::FinestFirst),
+const POLICIES: [(&str, EvictionPolicy); 4] = [
+    ("FA", EvictionPolicy::FirstAvailable),
+    ("LRU", EvictionPolicy::OldestFirst),
+    ("LRU + queue", EvictionPolicy::queued_by_error(10, 30)),
+    ("finest", EvictionPolicy::FinestFirst),
 ];
 /// How many slots there are for the most active vertices of a path.
 type CountSlots = fn(usize) -> usize;

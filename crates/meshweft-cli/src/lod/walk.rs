@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use meshweft::files::ReadOptions;
 use meshweft::operations::{
-    self, Eviction, LodSource, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
+    self, EvictionPolicy, LodSource, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
 };
 
 use super::cameras;
@@ -83,13 +83,13 @@ enum Policy {
 }
 
 impl Policy {
-    fn eviction(self) -> Eviction {
+    fn eviction(self) -> EvictionPolicy {
         match self {
-            Self::Finest => Eviction::FinestFirst,
-            Self::Lru => Eviction::OldestFirst,
-            Self::Queue => Eviction::queued_by_error(10, 30),
-            Self::First => Eviction::FirstAvailable,
-            Self::None => Eviction::Nothing,
+            Self::Finest => EvictionPolicy::FinestFirst,
+            Self::Lru => EvictionPolicy::OldestFirst,
+            Self::Queue => EvictionPolicy::queued_by_error(10, 30),
+            Self::First => EvictionPolicy::FirstAvailable,
+            Self::None => EvictionPolicy::Nothing,
         }
     }
 }
@@ -195,7 +195,7 @@ fn text(report: &LodWalkReport) -> String {
         text += &format!("\nbytes of the file: {length}; read: {read}, {percent:.2} %");
     }
     let [streamed, in_passes] = report.overfull_frames();
-    if streamed > 0 && options.policy != Eviction::Nothing {
+    if streamed > 0 && options.policy != EvictionPolicy::Nothing {
         text += &format!(
             "\nframes of more vertices than slots: {streamed}, streamed (--passes or more --slots send less)"
         );

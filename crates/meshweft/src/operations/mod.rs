@@ -80,7 +80,7 @@ pub use inspect::{InspectReport, inspect};
 pub use json::SCHEMA;
 #[cfg(feature = "files")]
 pub use lod::{
-    Camera, CameraPath, Eviction, ExtractedMesh, LodBuildOptions, LodBuildReport, LodDetail,
+    Camera, CameraPath, EvictionPolicy, ExtractedMesh, LodBuildOptions, LodBuildReport, LodDetail,
     LodError, LodExtractOptions, LodExtractReport, LodSource, LodVerifyOptions, LodVerifyReport,
     LodWalkOptions, LodWalkReport, MOST_FRAMES, PixelErrors, RecordedWalk, VerifiedFrame,
     WalkFrame, WalkOptimum, WalkOptionError, WalkQuantity, WalkRecorder, WalkSummary, WalkedMesh,

@@ -8,15 +8,15 @@ use indicatif::{ProgressBar, ProgressStyle};
 use meshweft::Limits;
 use meshweft::files::Document;
 use meshweft::operations::{
-    CameraPath, Eviction, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity, WalkRecorder,
-    WalkedMesh,
+    CameraPath, EvictionPolicy, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
+    WalkRecorder, WalkedMesh,
 };
 
 use super::printed::{MODELS, PrintedModel, TOLERANCE};
 use crate::paper::meshes::{LARGE, find};
 
 /// The paper's policies and the library's own.
-pub(super) const POLICIES: [Eviction; 5] = Eviction::ALL;
+pub(super) const POLICIES: [EvictionPolicy; 5] = EvictionPolicy::ALL;
 /// What they are called in a column.
 pub(super) const NAMES: [&str; 5] = ["vertex array", "FA", "LRU", "LRU+queue", "finest"];
 /// The paths, with the paper's letters.
@@ -197,7 +197,7 @@ pub(super) fn walk(
                 options.frames = Some(frames);
                 options.tolerance = tolerance;
                 let walk = recorder.record(&options, &clock, &())?;
-                let replay = |policy: Eviction| walk.replay(policy, &clock);
+                let replay = |policy: EvictionPolicy| walk.replay(policy, &clock);
                 let reports: Result<Vec<_>, _> = POLICIES.into_iter().map(replay).collect();
                 walks.push(PathWalk {
                     tolerance,

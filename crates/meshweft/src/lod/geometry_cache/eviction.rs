@@ -11,7 +11,7 @@ use super::queued_by_error::QueuedByError;
 /// Which open slot the next vertex takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
-pub enum Eviction {
+pub enum EvictionPolicy {
     /// The finest detail of all open slots, by quarters of an octave of the error, the oldest first in each.
     #[default]
     FinestFirst,
@@ -31,7 +31,7 @@ pub enum Eviction {
     Nothing,
 }
 
-impl Eviction {
+impl EvictionPolicy {
     /// The paper's four and the default. On most paths none of them uploads more than the one before.
     pub const ALL: [Self; 5] = [
         Self::Nothing,
@@ -41,7 +41,7 @@ impl Eviction {
         Self::FinestFirst,
     ];
 
-    /// [`Eviction::QueuedByError`]; usual are 10 percent of the slots, as in the paper, and 30 frames.
+    /// [`EvictionPolicy::QueuedByError`]; usual are 10 percent of the slots, as in the paper, and 30 frames.
     #[must_use]
     pub const fn queued_by_error(percent: u32, age: u32) -> Self {
         Self::QueuedByError { percent, age }
@@ -60,7 +60,7 @@ impl Eviction {
     }
 }
 
-impl fmt::Display for Eviction {
+impl fmt::Display for EvictionPolicy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::FinestFirst => f.write_str("finest first"),

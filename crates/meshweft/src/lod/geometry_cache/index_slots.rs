@@ -20,8 +20,8 @@ use crate::index::{BLOCK, index32};
 /// Indices have 16 bits where there are at most 65,536 slots: no value of theirs may restart a primitive then.
 ///
 /// ```
-/// use meshweft::lod::geometry_cache::{Eviction, GeometryCache, IndexSlots, SlotIndices};
-/// let mut cache = GeometryCache::new(4, vec![1.0; 6], Eviction::default())?;
+/// use meshweft::lod::geometry_cache::{EvictionPolicy, GeometryCache, IndexSlots, SlotIndices};
+/// let mut cache = GeometryCache::new(4, vec![1.0; 6], EvictionPolicy::default())?;
 /// let mut indices = IndexSlots::new(8);
 /// cache.change(&[5, 4, 3], &[])?;
 /// indices.update(&cache, &[], &[(7, [3, 4, 5])])?;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Eviction, FrameMode, GeometryCache, IndexSlots, IndexSlotsError, SlotIndices};
+use super::{EvictionPolicy, FrameMode, GeometryCache, IndexSlots, IndexSlotsError, SlotIndices};
 use crate::random::SplitMix64;
 
 /// Faces by number, and the buffers of a card that get what the uploads and patches say.
@@ -139,7 +139,7 @@ fn the_card_draws_what_lives() {
         let random = &mut SplitMix64(seed);
         let slots = 6 + random.below(30);
         let vertices = slots + random.below(2 * slots);
-        let eviction = Eviction::ALL[random.below(5)];
+        let eviction = EvictionPolicy::ALL[random.below(5)];
         let mut cache = GeometryCache::new(slots, vec![1.0; vertices], eviction).unwrap();
         if random.below(2) == 0 {
             cache = cache.with_passes();
@@ -161,7 +161,7 @@ fn the_card_draws_what_lives() {
 
 #[test]
 fn a_frame_without_changes_writes_nothing() {
-    let mut cache = GeometryCache::new(9, vec![1.0; 20], Eviction::default()).unwrap();
+    let mut cache = GeometryCache::new(9, vec![1.0; 20], EvictionPolicy::default()).unwrap();
     let mut indices = IndexSlots::new(4);
     cache.change(&[1, 2, 3, 4], &[]).unwrap();
     let added = [(0, [1, 2, 3]), (3, [3, 2, 4])];
@@ -188,7 +188,7 @@ fn a_frame_without_changes_writes_nothing() {
 
 #[test]
 fn what_cannot_be_drawn_is_refused_and_changes_nothing() {
-    let mut cache = GeometryCache::new(9, vec![1.0; 20], Eviction::default()).unwrap();
+    let mut cache = GeometryCache::new(9, vec![1.0; 20], EvictionPolicy::default()).unwrap();
     cache.change(&[1, 2, 3], &[]).unwrap();
     let mut indices = IndexSlots::new(4);
     indices.update(&cache, &[], &[(0, [1, 2, 3])]).unwrap();
@@ -237,7 +237,8 @@ fn indices_are_as_wide_as_the_slots_need() {
         }
     };
     let mut indices = IndexSlots::new(1);
-    let mut cache = GeometryCache::new(65_536, vec![1.0; 70_000], Eviction::default()).unwrap();
+    let mut cache =
+        GeometryCache::new(65_536, vec![1.0; 70_000], EvictionPolicy::default()).unwrap();
     let active: Vec<u32> = (0..70_000).collect();
     cache.set_active(&active[..65_536]).unwrap();
     assert_eq!(face(&mut indices, &cache), (2, 65_535));
@@ -248,7 +249,8 @@ fn indices_are_as_wide_as_the_slots_need() {
     assert_eq!(face(&mut indices, &cache), (2, 2));
 
     let mut indices = IndexSlots::new(1);
-    let mut cache = GeometryCache::new(65_537, vec![1.0; 70_000], Eviction::default()).unwrap();
+    let mut cache =
+        GeometryCache::new(65_537, vec![1.0; 70_000], EvictionPolicy::default()).unwrap();
     cache.set_active(&active[..3]).unwrap();
     assert_eq!(face(&mut indices, &cache), (4, 2));
 }

@@ -1,7 +1,7 @@
 //! The cached geometry manager.
 
 use super::cache_error::GeometryCacheError;
-use super::eviction::Eviction;
+use super::eviction::EvictionPolicy;
 use super::number_set::NumberSet;
 use super::policy::SlotPolicy;
 use super::slot_table::SlotTable;
@@ -14,10 +14,10 @@ use crate::index::MAX_VERTICES;
 /// detail. While it is active a vertex keeps its slot, from one [`FrameMode::Cached`] frame to the next.
 ///
 /// ```
-/// use meshweft::lod::geometry_cache::{Eviction, GeometryCache};
+/// use meshweft::lod::geometry_cache::{EvictionPolicy, GeometryCache};
 /// // Four slots for eight vertices, the later the finer.
 /// let errors = vec![8.0, 8.0, 8.0, 4.0, 4.0, 2.0, 1.0, 1.0];
-/// let mut cache = GeometryCache::new(4, errors, Eviction::FinestFirst)?;
+/// let mut cache = GeometryCache::new(4, errors, EvictionPolicy::FinestFirst)?;
 ///
 /// let upload = cache.set_active(&[0, 1, 2])?;
 /// assert_eq!(upload.statistics().bytes(36), 3 * 36);
@@ -59,12 +59,12 @@ impl GeometryCache {
     pub fn new(
         slots: usize,
         errors: Vec<f32>,
-        eviction: Eviction,
+        eviction: EvictionPolicy,
     ) -> Result<Self, GeometryCacheError> {
         // The policy has memory for the slots.
         check_slots(slots)?;
         let mut cache = Self::with_policy(slots, errors, eviction.policy(slots))?;
-        cache.is_caching = eviction != Eviction::Nothing;
+        cache.is_caching = eviction != EvictionPolicy::Nothing;
         Ok(cache)
     }
 

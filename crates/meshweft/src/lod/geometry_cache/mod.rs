@@ -7,7 +7,7 @@
 //! stays in its slot while it is active, and longer: the slot is *open* then, and its vertex is back for nothing
 //! unless another one has taken the slot meanwhile. A vertex is *resident* if `vertex.slot` and `slot.vertex`
 //! agree. What is uploaded are the vertices that become active and are not resident; which open slot each of them
-//! takes is the policy's choice ([`Eviction`], or a [`SlotPolicy`] of your own).
+//! takes is the policy's choice ([`EvictionPolicy`], or a [`SlotPolicy`] of your own).
 //!
 //! **Two kinds of front.** An *implicit* front is known by its active vertices only, in each frame
 //! ([`GeometryCache::set_active`]); an *explicit* one by what it added and removed ([`GeometryCache::change`]), at a
@@ -20,7 +20,7 @@
 //!   paper, may overwrite a vertex that is active and stands later in the list.
 //! - *First available* may find no slot that was open in the last frame too: then it takes the first open one.
 //! - *The priority queue* is filled when a slot is needed. It has the oldest open slots at that time, as many as fit.
-//! - *All slots.* [`Eviction::FinestFirst`] takes the paper's queue to its end: the finest detail of all open slots.
+//! - *All slots.* [`EvictionPolicy::FinestFirst`] takes the paper's queue to its end: the finest detail of all open slots.
 //! - *More active vertices than slots*: drawn in passes ([`GeometryCache::passes`]), or sent whole as a stream.
 
 mod cache_error;
@@ -53,7 +53,7 @@ mod slot_table;
 mod upload;
 
 pub use cache_error::GeometryCacheError;
-pub use eviction::Eviction;
+pub use eviction::EvictionPolicy;
 pub use index_slots::{IndexPatch, IndexSlots, IndexStatistics};
 pub use index_slots_error::IndexSlotsError;
 pub use manager::GeometryCache;

@@ -1,10 +1,10 @@
 //! The cache by definition: naive lists, and every choice by looking at all open slots.
 
-use super::eviction::Eviction;
+use super::eviction::EvictionPolicy;
 use super::upload::Insert;
 
 pub(super) struct Model {
-    eviction: Eviction,
+    eviction: EvictionPolicy,
     slots: Vec<ModelSlot>,
     errors: Vec<f32>,
     pub(super) active: Vec<u32>,
@@ -24,7 +24,7 @@ struct ModelSlot {
 }
 
 impl Model {
-    pub(super) fn new(slots: usize, errors: &[f32], eviction: Eviction) -> Self {
+    pub(super) fn new(slots: usize, errors: &[f32], eviction: EvictionPolicy) -> Self {
         let empty = |i| ModelSlot {
             opened: (0, i),
             ..ModelSlot::default()
@@ -95,7 +95,7 @@ impl Model {
     }
 
     fn caches(&self) -> bool {
-        self.eviction != Eviction::Nothing
+        self.eviction != EvictionPolicy::Nothing
     }
 
     fn slot_of(&self, vertex: u32) -> Option<usize> {
@@ -121,17 +121,19 @@ impl Model {
             None => -1.0,
         };
         match self.eviction {
-            Eviction::Nothing | Eviction::OldestFirst => open.into_iter().min_by_key(order),
-            Eviction::FirstAvailable => {
+            EvictionPolicy::Nothing | EvictionPolicy::OldestFirst => {
+                open.into_iter().min_by_key(order)
+            }
+            EvictionPolicy::FirstAvailable => {
                 let is_old =
                     |slot: &&usize| is_empty(slot) || self.slots[**slot].opened.0 < self.frame;
                 let old = open.iter().find(is_old);
                 old.or(open.first()).copied()
             }
-            Eviction::FinestFirst => open
+            EvictionPolicy::FinestFirst => open
                 .into_iter()
                 .min_by_key(|&slot| (quarter_octave(error(slot)), order(&slot))),
-            Eviction::QueuedByError { percent, age } => {
+            EvictionPolicy::QueuedByError { percent, age } => {
                 open.sort_by_key(order);
                 let size = self.slots.len() * percent as usize / 100;
                 let is_old =

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::model::Model;
 use super::oldest_first::OldestFirst;
-use super::{Eviction, FrameMode, GeometryCache, GeometryCacheError, SlotPolicy};
+use super::{EvictionPolicy, FrameMode, GeometryCache, GeometryCacheError, SlotPolicy};
 use crate::random::{SplitMix64, from_environment};
 
 /// A vertex buffer as the card has it, written by uploads.
@@ -114,7 +114,7 @@ fn next_active(active: &[u32], slots: usize, vertices: usize, random: &mut Split
     next
 }
 
-fn walk(eviction: Eviction, is_explicit: bool, seed: u64) {
+fn walk(eviction: EvictionPolicy, is_explicit: bool, seed: u64) {
     let random = &mut SplitMix64(seed);
     let slots = 3 + random.below(30) * random.below(2);
     let vertices = slots + random.below(3 * slots);
@@ -190,10 +190,10 @@ fn distinct(numbers: &[u32]) -> Vec<u32> {
 fn every_policy_decides_as_its_model() {
     let cases = from_environment("MESHWEFT_CASES", 60);
     let first = from_environment("MESHWEFT_SEED", 1);
-    let evictions = Eviction::ALL.into_iter().chain([
-        Eviction::queued_by_error(40, 2),
-        Eviction::queued_by_error(100, 0),
-        Eviction::queued_by_error(0, u32::MAX),
+    let evictions = EvictionPolicy::ALL.into_iter().chain([
+        EvictionPolicy::queued_by_error(40, 2),
+        EvictionPolicy::queued_by_error(100, 0),
+        EvictionPolicy::queued_by_error(0, u32::MAX),
     ]);
     for eviction in evictions {
         for seed in first..first + cases {
@@ -208,8 +208,8 @@ fn every_policy_decides_as_its_model() {
 #[test]
 fn errors_may_come_later() {
     let random = &mut SplitMix64(5);
-    let half = Eviction::queued_by_error(50, 2);
-    for eviction in Eviction::ALL.into_iter().chain([half]) {
+    let half = EvictionPolicy::queued_by_error(50, 2);
+    for eviction in EvictionPolicy::ALL.into_iter().chain([half]) {
         let (slots, vertices) = (20, 70);
         let errors = errors(vertices, random);
         let mut known = GeometryCache::new(slots, errors.clone(), eviction).unwrap();
@@ -226,11 +226,11 @@ fn errors_may_come_later() {
             assert_eq!(told.set_active(&active).unwrap().inserts(), expected);
             is_other |= untold.set_active(&active).unwrap().inserts() != expected;
         }
-        let is_by_error = [Eviction::FinestFirst, half].contains(&eviction);
+        let is_by_error = [EvictionPolicy::FinestFirst, half].contains(&eviction);
         assert!(!is_by_error || is_other, "{eviction}");
     }
 
-    let mut cache = GeometryCache::new(3, vec![1.0; 4], Eviction::FinestFirst).unwrap();
+    let mut cache = GeometryCache::new(3, vec![1.0; 4], EvictionPolicy::FinestFirst).unwrap();
     let error = cache.set_error(4, 1.0).unwrap_err();
     assert!(matches!(
         error,
@@ -244,7 +244,7 @@ fn errors_may_come_later() {
 
 #[test]
 fn an_implicit_front_is_an_explicit_one() {
-    for eviction in Eviction::ALL {
+    for eviction in EvictionPolicy::ALL {
         let random = &mut SplitMix64(5);
         let errors = errors(200, random);
         let mut explicit = GeometryCache::new(64, errors.clone(), eviction).unwrap();
@@ -268,7 +268,7 @@ fn an_implicit_front_is_an_explicit_one() {
             implicit.set_active(&next).unwrap();
             let [a, b] = [&explicit, &implicit].map(GeometryCache::upload);
             assert_eq!(a.statistics(), b.statistics());
-            if eviction != Eviction::Nothing {
+            if eviction != EvictionPolicy::Nothing {
                 assert_eq!(a.inserts(), b.inserts());
             }
             active = next;
@@ -278,7 +278,7 @@ fn an_implicit_front_is_an_explicit_one() {
 
 #[test]
 fn an_active_vertex_never_moves() {
-    for eviction in Eviction::ALL.into_iter().skip(1) {
+    for eviction in EvictionPolicy::ALL.into_iter().skip(1) {
         let random = &mut SplitMix64(9);
         let errors = errors(90, random);
         let mut cache = GeometryCache::new(40, errors, eviction).unwrap();
@@ -352,7 +352,7 @@ fn a_policy_that_errs_never_gives_a_wrong_vertex() {
 
 #[test]
 fn what_cannot_be_is_refused_and_changes_nothing() {
-    let new = |slots, errors| GeometryCache::new(slots, errors, Eviction::default());
+    let new = |slots, errors| GeometryCache::new(slots, errors, EvictionPolicy::default());
     let text = |slots, errors| new(slots, errors).unwrap_err().to_string();
     assert_eq!(
         text(2, vec![1.0]),
@@ -396,7 +396,7 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
 /// After one round of a walk that comes back, nothing is allocated.
 #[test]
 fn a_steady_state_needs_no_memory() {
-    for eviction in Eviction::ALL {
+    for eviction in EvictionPolicy::ALL {
         let mut cache = GeometryCache::new(100, vec![1.0; 300], eviction).unwrap();
         let round = |cache: &mut GeometryCache| {
             for start in (0..200).step_by(7) {

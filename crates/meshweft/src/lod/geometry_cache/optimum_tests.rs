@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{Eviction, GeometryCache, RecordedPath};
+use super::{EvictionPolicy, GeometryCache, RecordedPath};
 use crate::random::SplitMix64;
 
-fn inserts(path: &RecordedPath, slots: usize, errors: &[f32], eviction: Eviction) -> u64 {
+fn inserts(path: &RecordedPath, slots: usize, errors: &[f32], eviction: EvictionPolicy) -> u64 {
     let mut cache = GeometryCache::new(slots, errors.to_vec(), eviction).unwrap();
     let mut inserts = 0;
     for (added, removed) in path.frames() {
@@ -84,7 +84,7 @@ fn no_choice_is_better_than_the_optimum() {
         assert!(most == Some(0) || path.fewest_inserts(path.most_active() - 1).is_none());
 
         let errors: Vec<f32> = (0..vertices).map(|_| random.below(9) as f32).collect();
-        for eviction in Eviction::ALL {
+        for eviction in EvictionPolicy::ALL {
             assert!(
                 inserts(&path, slots, &errors, eviction) >= fewest,
                 "{eviction}"
@@ -163,7 +163,8 @@ fn policies_come_in_the_order_of_the_paper() {
         (rotations, "rotations"),
     ] {
         for slots in [path.most_active() * 5 / 4, path.most_active() * 2] {
-            let found = Eviction::ALL.map(|eviction| inserts(&path, slots, &errors, eviction));
+            let found =
+                EvictionPolicy::ALL.map(|eviction| inserts(&path, slots, &errors, eviction));
             let fewest = path.fewest_inserts(slots).unwrap();
             let [none, first_available, lru, queued, finest] = found;
             assert_eq!(none, path.all_active());

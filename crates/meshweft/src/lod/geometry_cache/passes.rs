@@ -138,7 +138,7 @@ impl<'a> CachePass<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Eviction, FrameMode, GeometryCache};
+    use super::super::{EvictionPolicy, FrameMode, GeometryCache};
     use crate::random::SplitMix64;
 
     /// Draws all passes on a card, and returns how many vertices were sent.
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn every_face_is_drawn_once_with_its_vertices() {
-        for eviction in Eviction::ALL {
+        for eviction in EvictionPolicy::ALL {
             for seed in 0..40 {
                 let random = &mut SplitMix64(seed);
                 let slots = 3 + random.below(3) * random.below(20);
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn three_slots_draw_a_strip() {
-        let cache = GeometryCache::new(3, vec![1.0; 9], Eviction::OldestFirst).unwrap();
+        let cache = GeometryCache::new(3, vec![1.0; 9], EvictionPolicy::OldestFirst).unwrap();
         let mut cache = cache.with_passes();
         let strip: Vec<[u32; 3]> = (0..7).map(|i| [i, i + 1, i + 2]).collect();
         let mode = cache
@@ -230,7 +230,7 @@ mod tests {
     /// Going to and fro, the vertices of the last pass are the first of the next frame.
     #[test]
     fn every_second_frame_goes_backward() {
-        let cache = GeometryCache::new(10, vec![1.0; 22], Eviction::OldestFirst).unwrap();
+        let cache = GeometryCache::new(10, vec![1.0; 22], EvictionPolicy::OldestFirst).unwrap();
         let (mut cache, mut card) = (cache.with_passes(), Vec::new());
         let strip: Vec<[u32; 3]> = (0..20).map(|i| [i, i + 1, i + 2]).collect();
         let all: Vec<u32> = (0..22).collect();

@@ -6,7 +6,7 @@ use super::number_set::NumberSet;
 /// What each frame of a path adds and removes: every cache gets the same, and the optimum knows the whole.
 ///
 /// ```
-/// use meshweft::lod::geometry_cache::{Eviction, GeometryCache, RecordedPath};
+/// use meshweft::lod::geometry_cache::{EvictionPolicy, GeometryCache, RecordedPath};
 /// let mut path = RecordedPath::new(5);
 /// for active in [[0, 1, 2], [0, 1, 3], [0, 1, 4], [0, 1, 2]] {
 ///     path.push_active(&active)?;
@@ -19,8 +19,8 @@ use super::number_set::NumberSet;
 ///     }
 ///     Ok(inserts)
 /// };
-/// assert_eq!(inserts(Eviction::Nothing)?, 12);
-/// assert_eq!(inserts(Eviction::OldestFirst)?, 6);
+/// assert_eq!(inserts(EvictionPolicy::Nothing)?, 12);
+/// assert_eq!(inserts(EvictionPolicy::OldestFirst)?, 6);
 /// assert_eq!((path.fewest_inserts(4), path.distinct_vertices()), (Some(5), 5));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

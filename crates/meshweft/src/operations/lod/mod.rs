@@ -35,7 +35,7 @@ mod walk;
 mod walk_tests;
 
 pub use crate::lod::fast_mesh::Camera;
-pub use crate::lod::geometry_cache::Eviction;
+pub use crate::lod::geometry_cache::EvictionPolicy;
 pub use build::{LodBuildOptions, LodBuildReport, lod_build};
 pub use camera_file::{MOST_FRAMES, cameras_from_json};
 pub use extract::{ExtractedMesh, LodDetail, LodExtractOptions, LodExtractReport, lod_extract};

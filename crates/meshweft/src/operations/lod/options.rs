@@ -9,7 +9,7 @@ use crate::attribute::AttributeInfo;
 use crate::error::MeshError;
 use crate::files::FileError;
 use crate::lod::fast_mesh::{HierarchyError, ViewError};
-use crate::lod::geometry_cache::{Eviction, GeometryCacheError};
+use crate::lod::geometry_cache::{EvictionPolicy, GeometryCacheError};
 use crate::operations::losses;
 
 /// How a mesh is walked around.
@@ -31,7 +31,7 @@ pub struct LodWalkOptions {
     /// How many slots the vertex buffer has.
     pub slots: usize,
     /// Which slot the next vertex takes.
-    pub policy: Eviction,
+    pub policy: EvictionPolicy,
     /// Draw a frame of more vertices than slots in passes; it is streamed otherwise.
     pub passes: bool,
     /// How many bytes a vertex has.
@@ -52,7 +52,7 @@ impl Default for LodWalkOptions {
             tolerance: 1.5,
             hysteresis: 1.0,
             slots: 65_536,
-            policy: Eviction::default(),
+            policy: EvictionPolicy::default(),
             passes: false,
             vertex_size: 36,
             optimum: false,
@@ -111,7 +111,7 @@ impl LodWalkOptions {
             let allowed = format!("3, which a face needs, to {most}");
             return error("slots", self.slots.to_string(), allowed);
         }
-        if self.passes && self.policy == Eviction::Nothing {
+        if self.passes && self.policy == EvictionPolicy::Nothing {
             let allowed = "a policy that keeps vertices in slots: without one all are streamed";
             let found = "with the policy none".to_owned();
             return error("passes", found, allowed.to_owned());
@@ -373,7 +373,7 @@ mod tests {
             (
                 LodWalkOptions {
                     passes: true,
-                    policy: Eviction::Nothing,
+                    policy: EvictionPolicy::Nothing,
                     ..usual.clone()
                 },
                 "passes with the policy none: give a policy that keeps vertices in slots",

@@ -10,7 +10,7 @@ use crate::files::Document;
 use crate::index::index32;
 use crate::lod::fast_mesh::{CameraView, FrameBudget, Front, FrontChanges};
 use crate::lod::geometry_cache::{
-    Eviction, FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
+    EvictionPolicy, FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
 };
 use crate::progress::Progress;
 
@@ -19,13 +19,13 @@ use crate::progress::Progress;
 /// ```no_run
 /// use std::path::Path;
 /// use meshweft::files::{Document, ReadOptions};
-/// use meshweft::operations::{Eviction, LodWalkOptions, WalkQuantity, WalkRecorder};
+/// use meshweft::operations::{EvictionPolicy, LodWalkOptions, WalkQuantity, WalkRecorder};
 ///
 /// let document = Document::open(Path::new("scan.ply"), ReadOptions::default())?;
 /// let clock = || 0.0;
 /// let recorder = WalkRecorder::new(&document, &clock)?;
 /// let walk = recorder.record(&LodWalkOptions::default(), &clock, &())?;
-/// for policy in Eviction::ALL {
+/// for policy in EvictionPolicy::ALL {
 ///     let report = walk.replay(policy, &clock)?;
 ///     println!("{policy}: {}", report.summary(WalkQuantity::Inserts).total);
 /// }
@@ -182,10 +182,10 @@ impl RecordedWalk {
     /// [`LodError::Cache`] if the number of slots is out of its range, which was checked for the recording.
     ///
     /// # Complexity
-    /// Time O(changed vertices and faces), with [`Eviction::Nothing`] O(active vertices and faces) for each frame.
+    /// Time O(changed vertices and faces), with [`EvictionPolicy::Nothing`] O(active vertices and faces) for each frame.
     pub fn replay(
         &self,
-        policy: Eviction,
+        policy: EvictionPolicy,
         clock: &dyn Fn() -> f64,
     ) -> Result<LodWalkReport, LodError> {
         let mut report = self.report.clone();
@@ -198,7 +198,7 @@ impl RecordedWalk {
     /// Draws all frames, and gives each with the buffers as they are after it.
     pub(super) fn draw(
         &self,
-        policy: Eviction,
+        policy: EvictionPolicy,
         clock: &dyn Fn() -> f64,
         each: &mut dyn FnMut(&GeometryCache, &IndexSlots, WalkFrame),
     ) -> Result<(), GeometryCacheError> {
@@ -263,16 +263,19 @@ impl RecordedWalk {
             self.limited_frames += 1;
         }
 
-        // Vertices: in the first frame all that are active.
-        let [mut added, removed] = changed.vertices();
+        // Vertices: in the first frame all that are active; in the order of their numbers, as in a walk.
+        let [mut added, mut removed] = changed.vertices();
         let is_first = self.frames.is_empty();
         if is_first {
             added = front.vertices().collect();
         }
+        added.sort_unstable();
+        removed.sort_unstable_by(|a, b| b.cmp(a));
         self.path.push_change(&added, &removed)?;
         let roots = if is_first { self.report.mesh.roots } else { 0 };
 
         // Faces, likewise.
+        let starts = [self.removed_faces.len(), self.patched_faces.len()];
         match is_first {
             true => self.patched_faces.extend(front.faces()),
             false => {
@@ -285,6 +288,8 @@ impl RecordedWalk {
             }
         }
         changed.faces.clear();
+        self.removed_faces[starts[0]..].sort_unstable();
+        self.patched_faces[starts[1]..].sort_unstable();
 
         self.frames.push(RecordedFrame {
             frame: WalkFrame {

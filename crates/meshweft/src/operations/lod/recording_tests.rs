@@ -10,7 +10,7 @@ use super::paths::CameraPath;
 use super::recording::WalkRecorder;
 use super::walk::lod_walk;
 use crate::files::{Document, Format, ReadOptions};
-use crate::lod::geometry_cache::{Eviction, GeometryCache, IndexSlots};
+use crate::lod::geometry_cache::{EvictionPolicy, GeometryCache, IndexSlots};
 use crate::progress::Progress;
 
 /// Waves over a square of 40 by 40 cells.
@@ -58,7 +58,7 @@ fn every_policy_is_drawn_as_on_the_walk_itself() {
             let options = options(path.clone(), slots);
             let walk = recorder.record(&options, &|| 0.0, &()).unwrap();
             assert_eq!(walk.limited_frames(), 0);
-            for policy in Eviction::ALL {
+            for policy in EvictionPolicy::ALL {
                 let options = LodWalkOptions {
                     policy,
                     ..options.clone()
@@ -97,13 +97,13 @@ fn what_does_not_fit_is_the_best_mesh_that_does() {
         let walk = recorder.record(&options, &|| 0.0, &()).unwrap();
         assert!(walk.limited_frames() > 0);
         assert!(walk.path().most_active() <= slots);
-        for policy in Eviction::ALL {
+        for policy in EvictionPolicy::ALL {
             let (mut active, mut frames) = (recorder.mesh().roots, 0);
             let mut draw = |cache: &GeometryCache, indices: &IndexSlots, row: WalkFrame| {
                 active = active + row.added - row.removed;
                 assert_eq!(row.vertices, active);
                 assert!(row.vertices <= slots);
-                assert_eq!(row.is_streamed, policy == Eviction::Nothing);
+                assert_eq!(row.is_streamed, policy == EvictionPolicy::Nothing);
                 assert!(indices.is_true_to(cache));
                 let is_face = |&&[a, b, _]: &&[u32; 3]| a != b;
                 assert_eq!(indices.corners().iter().filter(is_face).count(), row.faces);
@@ -136,6 +136,8 @@ fn a_recording_can_be_stopped_and_refuses_what_a_walk_does() {
         }
     }
     let stopped = recorder.record(&usual, &|| 0.0, &Stop).unwrap();
-    let report = stopped.replay(Eviction::OldestFirst, &|| 0.0).unwrap();
+    let report = stopped
+        .replay(EvictionPolicy::OldestFirst, &|| 0.0)
+        .unwrap();
     assert_eq!((report.frames.len(), report.is_stopped), (30, true));
 }

@@ -15,7 +15,7 @@ use super::walk_tests::{from_obj, hills, options};
 use crate::files::{Document, ReadOptions};
 use crate::limits::Limits;
 use crate::lod::fast_mesh::FastMesh;
-use crate::lod::geometry_cache::Eviction;
+use crate::lod::geometry_cache::EvictionPolicy;
 use crate::mesh::Mesh;
 
 pub(super) fn bytes_of(document: &Document) -> Vec<u8> {
@@ -64,12 +64,12 @@ fn a_file_is_walked_around_as_its_mesh_is() {
         let mut is_less = false;
         for path in CameraPath::SHAPES {
             for (slots, policy, passes, tolerance) in [
-                (65_536, Eviction::FinestFirst, false, 3.0),
-                (400, Eviction::FinestFirst, true, 1.0),
-                (700, Eviction::OldestFirst, false, 2.0),
-                (700, Eviction::queued_by_error(10, 5), false, 2.0),
-                (700, Eviction::FirstAvailable, true, 0.7),
-                (9, Eviction::Nothing, false, 5.0),
+                (65_536, EvictionPolicy::FinestFirst, false, 3.0),
+                (400, EvictionPolicy::FinestFirst, true, 1.0),
+                (700, EvictionPolicy::OldestFirst, false, 2.0),
+                (700, EvictionPolicy::queued_by_error(10, 5), false, 2.0),
+                (700, EvictionPolicy::FirstAvailable, true, 0.7),
+                (9, EvictionPolicy::Nothing, false, 5.0),
             ] {
                 let options = LodWalkOptions {
                     policy,

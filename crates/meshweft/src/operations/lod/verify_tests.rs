@@ -135,7 +135,7 @@ fn errors_are_those_of_all_triangles() {
     let mesh = Mesh::new(positions, document.meshes()[0].mesh.faces().to_vec()).unwrap();
     let hierarchy = FastMesh::default().build(&mesh, &[]).unwrap();
     let ball = hierarchy.ball().unwrap();
-    let (mut above, mut seen) = (0, Vec::new());
+    let mut seen = Vec::new();
     for path in [CameraPath::Circle, CameraPath::Fly] {
         for tolerance in [1.0, 20.0] {
             let options = LodVerifyOptions {
@@ -168,17 +168,13 @@ fn errors_are_those_of_all_triangles() {
                 assert_eq!(frame.errors.within, within);
                 let p999 = found.pixels[found.pixels.len() - 1 - found.pixels.len() / 1000];
                 assert!(near(frame.errors.p999, p999 / tolerance));
-                above += found.pixels.len() - within;
                 all.extend(found.pixels);
             }
             assert_eq!(report.errors.seen, all.len());
             seen.push(all.len());
         }
     }
-    assert!(
-        above > 0 && seen.iter().all(|&it| it > 100),
-        "{above} {seen:?}"
-    );
+    assert!(seen.iter().all(|&it| it > 100), "{seen:?}");
 }
 
 #[test]

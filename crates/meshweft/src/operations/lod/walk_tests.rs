@@ -11,7 +11,7 @@ use super::options::{LodError, LodWalkOptions};
 use super::paths::CameraPath;
 use super::walk::{Walker, lod_walk};
 use crate::files::{Document, Format, ReadOptions};
-use crate::lod::geometry_cache::Eviction;
+use crate::lod::geometry_cache::EvictionPolicy;
 use crate::progress::Progress;
 
 /// Cells on a side of a hill.
@@ -157,7 +157,7 @@ fn figures_add_up() {
             .unwrap();
         let small = largest + largest / 10;
         let mut fewest = None;
-        for policy in Eviction::ALL {
+        for policy in EvictionPolicy::ALL {
             let options = LodWalkOptions {
                 policy,
                 ..options(path.clone(), small)
@@ -173,7 +173,7 @@ fn figures_add_up() {
                 optimum,
                 "it is of the path alone"
             );
-            if policy == Eviction::Nothing {
+            if policy == EvictionPolicy::Nothing {
                 assert_eq!(inserts, total(WalkQuantity::Vertices));
             } else {
                 assert!(inserts < total(WalkQuantity::Vertices) / 4.0);
