@@ -106,7 +106,7 @@ impl<'a> Simplified<'a> {
         let (faces, distances) = self.made.entry(step).or_insert_with(|| {
             let error = LARGEST_ERROR * STEP.powf(step as f64);
             #[expect(clippy::cast_possible_truncation, reason = "as exact as it takes them")]
-            let faces = rivals::simplified_within(&scene.full, error as f32);
+            let faces = rivals::simplified_within(&scene.for_rivals, error as f32);
             #[expect(clippy::cast_possible_truncation, reason = "as exact as positions are")]
             let distances = distances(scene, &faces).into_iter().map(|it| it as f32);
             (faces.len(), distances.collect())

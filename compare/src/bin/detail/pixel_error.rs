@@ -81,10 +81,10 @@ impl Seen {
     }
 }
 
-/// How far each vertex of the full mesh is from these faces.
+/// How far each vertex of the full mesh is from these faces of the rivals' mesh.
 pub(crate) fn distances(scene: &Scene, drawn: &[[u32; 3]]) -> Vec<f64> {
     let positions = scene.full.positions();
-    let surface = Surface::new(positions, drawn);
+    let surface = Surface::new(scene.for_rivals.positions(), drawn);
     let distance = |&position: &[f32; 3]| distance(&surface, position);
     positions.par_iter().map(distance).collect()
 }
