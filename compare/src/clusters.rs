@@ -89,11 +89,12 @@ struct Pending {
 /// If the mesh has no positions.
 #[must_use]
 pub fn hierarchy(mesh: &Mesh) -> Vec<LodCluster> {
+    let places = places(mesh);
     let mut clusters = clusters(mesh, mesh.faces(), None);
     let mut made = Vec::new();
     while clusters.len() > 1 {
-        let groups = groups(mesh, clusters);
-        let locks = locks(mesh, &groups);
+        let groups = groups(mesh, &places, clusters);
+        let locks = locks(&places, &groups);
         let mut next = Vec::new();
         for group in groups {
             // Errors and spheres only grow.
@@ -160,8 +161,10 @@ fn clusters(mesh: &Mesh, faces: &[[u32; 3]], finer: Option<ErrorSphere>) -> Vec<
 }
 
 /// Clusters that share vertices, or are near, together.
-fn groups(mesh: &Mesh, clusters: Vec<Pending>) -> Vec<Vec<Pending>> {
-    let faces: Vec<[u32; 3]> = clusters.iter().flat_map(|it| it.faces.clone()).collect();
+fn groups(mesh: &Mesh, places: &[u32], clusters: Vec<Pending>) -> Vec<Vec<Pending>> {
+    let faces = clusters.iter().flat_map(|it| &it.faces);
+    let faces = faces.map(|face| face.map(|vertex| places[vertex as usize]));
+    let faces: Vec<[u32; 3]> = faces.collect();
     let counts = clusters.iter().map(|it| 3 * it.faces.len());
     let counts: Vec<u32> = counts
         .map(|count| u32::try_from(count).expect("a cluster is small"))
@@ -190,21 +193,36 @@ fn groups(mesh: &Mesh, clusters: Vec<Pending>) -> Vec<Vec<Pending>> {
     groups
 }
 
-/// Of each vertex 1 if several groups have it, or else 0.
-fn locks(mesh: &Mesh, groups: &[Vec<Pending>]) -> Vec<u8> {
-    let mut owner = vec![usize::MAX; mesh.vertex_count()];
-    let mut locks = vec![0; mesh.vertex_count()];
+/// Of each vertex the first one at its position.
+fn places(mesh: &Mesh) -> Vec<u32> {
+    let mut places = vec![0; mesh.vertex_count()];
+    // SAFETY: there is room for a number for each of the positions, 12 bytes each.
+    unsafe {
+        ffi::meshopt_generatePositionRemap(
+            places.as_mut_ptr(),
+            mesh.positions().as_ptr().cast(),
+            mesh.vertex_count(),
+            size_of::<[f32; 3]>(),
+        );
+    }
+    places
+}
+
+/// Of each vertex 1 if several groups have its place, or else 0.
+fn locks(places: &[u32], groups: &[Vec<Pending>]) -> Vec<u8> {
+    let mut owner = vec![usize::MAX; places.len()];
+    let mut locks = vec![0; places.len()];
     for (number, group) in groups.iter().enumerate() {
         let faces = group.iter().flat_map(|it| &it.faces);
         for &vertex in faces.flatten() {
-            let owner = &mut owner[vertex as usize];
-            if *owner == usize::MAX {
-                *owner = number;
+            let place = places[vertex as usize] as usize;
+            if owner[place] == usize::MAX {
+                owner[place] = number;
             }
-            locks[vertex as usize] |= u8::from(*owner != number);
+            locks[place] |= u8::from(owner[place] != number);
         }
     }
-    locks
+    places.iter().map(|&place| locks[place as usize]).collect()
 }
 
 /// Half of the faces as far as that can be, and how far they are off.

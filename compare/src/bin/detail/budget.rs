@@ -97,7 +97,7 @@ impl Compared {
             let seen = Seen::by(camera, scene);
             for (i, front) in [&limited, &free].into_iter().enumerate() {
                 vertices[i].push(front.vertex_count() as f64);
-                errors[i].extend(seen.errors(scene, &Scene::drawn(front)));
+                errors[i].extend(seen.errors(&scene.full, scene, &Scene::drawn(front)));
             }
         }
         let [within, by_tolerance] = errors.map(summary);

@@ -28,7 +28,7 @@ pub(crate) fn print(scenes: &[Scene]) -> Result<(), String> {
     for scene in scenes {
         let recorder = WalkRecorder::new(&scene.document, &|| 0.0);
         let recorder = recorder.map_err(|it| it.to_string())?;
-        let clusters = clusters::hierarchy(&scene.full);
+        let clusters = clusters::hierarchy(&scene.for_rivals);
         for (letter, path) in &PATHS {
             // Ours.
             let mut options = LodWalkOptions::default();
@@ -54,13 +54,13 @@ pub(crate) fn print(scenes: &[Scene]) -> Result<(), String> {
                 let seen = Seen::by(&camera, scene);
                 let view = camera.view(TOLERANCE).map_err(|it| it.to_string())?;
                 front.update(&view, 1.0);
-                our_errors.extend(seen.errors(scene, &Scene::drawn(&front)));
+                our_errors.extend(seen.errors(&scene.full, scene, &Scene::drawn(&front)));
                 // All that is in the cut: what is not in the picture may be nearest too.
                 let scale = Picture::of(&camera).scale;
                 let cut = clusters.iter();
                 let cut = cut.filter(|it| it.is_in_cut(camera.eye, scale, TOLERANCE));
                 let faces: Vec<[u32; 3]> = cut.flat_map(|it| it.faces.clone()).collect();
-                their_errors.extend(seen.errors(scene, &faces));
+                their_errors.extend(seen.errors(&scene.for_rivals, scene, &faces));
             }
             println!(
                 "| {} | {letter} | {active:.0} | {first:.0} | {vertices:.0} | {indices:.0} | {all:.0} | {:.3} | {theirs:.0} | {:.3} | {:.3} |",

@@ -44,7 +44,7 @@ pub(crate) fn print(scenes: &[Scene]) -> Result<(), String> {
                     let view = camera.view(tolerance).map_err(|it| it.to_string())?;
                     front.update(&view, 1.0);
                     counts.push(front.face_count() as f64);
-                    errors.extend(seen.errors(scene, &Scene::drawn(&front)));
+                    errors.extend(seen.errors(&scene.full, scene, &Scene::drawn(&front)));
                 }
                 let [ours, our_worst] = summary(errors);
                 let faces = mean(counts);

@@ -1,5 +1,6 @@
 //! How far a drawn surface is from the full mesh, in pixels.
 
+use meshweft::Mesh;
 use meshweft::geometry::Surface;
 use meshweft::lod::fast_mesh::Camera;
 use rayon::prelude::*;
@@ -64,10 +65,10 @@ impl Seen {
         }
     }
 
-    /// The errors in pixels where these faces are drawn.
-    pub(crate) fn errors(&self, scene: &Scene, drawn: &[[u32; 3]]) -> Vec<f64> {
+    /// The errors in pixels where these faces of a mesh are drawn.
+    pub(crate) fn errors(&self, mesh: &Mesh, scene: &Scene, drawn: &[[u32; 3]]) -> Vec<f64> {
         let positions = scene.full.positions();
-        let surface = Surface::new(positions, drawn);
+        let surface = Surface::new(mesh.positions(), drawn);
         let error = |&(vertex, pixels): &(u32, f64)| {
             pixels * distance(&surface, positions[vertex as usize])
         };
