@@ -22,7 +22,7 @@ pub(super) struct Verify {
     /// circle: once around; rotate: small turns to and fro; zoom: in and out; fly: close, turning; or a file of cameras
     #[arg(long, value_name = "PATH", default_value = "circle")]
     path: String,
-    /// How many frames, evenly on the path [default: 8]
+    /// How many frames, evenly on the path [default: 9]
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
     /// How many pixels the surface may be off

@@ -322,13 +322,13 @@ fn what_is_drawn_is_measured() {
     assert_eq!(run.code(), 0, "{}", run.err());
     for expected in [
         "waves.off: vertices 2601, faces 5000; coarsest with vertices ",
-        "fly, frames 8 of 800 x 800, tolerance 3 px; errors in tolerances\n",
+        "fly, frames 9 of 800 x 800, tolerance 3 px; errors in tolerances\n",
         "within, %",
         "\nall ",
     ] {
         assert!(run.out().contains(expected), "{}", run.out());
     }
-    assert_eq!(run.out().lines().count(), 2 + 1 + 8 + 1, "{}", run.out());
+    assert_eq!(run.out().lines().count(), 2 + 1 + 9 + 1, "{}", run.out());
 
     let coarse = ["--tolerance", "30", "--frames", "3", "--json"];
     let [mesh, stored] = ["waves.off", "waves.mwl"].map(|name| verify(name, &coarse).json());

@@ -195,7 +195,7 @@ fn a_file_is_measured_as_its_mesh_is() {
             assert_eq!(found.frames, expected.frames);
             assert_eq!((found.errors, found.mesh), (expected.errors, expected.mesh));
             assert_eq!(found.file_bytes, Some(bytes.len() as u64));
-            assert_eq!(expected.frames.len(), 8);
+            assert_eq!(expected.frames.len(), 9);
         }
     }
 }
@@ -298,12 +298,12 @@ fn measuring_can_be_stopped() {
     }
     let options = LodVerifyOptions::default();
     let document = hills();
-    for (at, frames) in [(0.0, 0), (0.75, 4), (1.0, 8)] {
+    for (at, frames) in [(0.0, 0), (0.75, 5), (1.0, 9)] {
         let stop = StopAt(at, AtomicUsize::new(0));
         let report = lod_verify(&document, &options, &stop).unwrap();
         assert_eq!(
             (report.is_stopped, report.frames.len()),
-            (frames < 8, frames)
+            (frames < 9, frames)
         );
         assert!(stop.1.into_inner() > 0);
     }
