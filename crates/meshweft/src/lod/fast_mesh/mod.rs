@@ -57,7 +57,7 @@ mod streamed;
 mod streamed_tests;
 mod tested;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod view;
 
 pub use budget::FrameBudget;

@@ -11,7 +11,7 @@ use crate::random::{SplitMix64, from_environment};
 use crate::topology::half_edges::{NONE, next};
 
 /// The points that have to be active for a view, from the hierarchy as it is without a front.
-fn closure(hierarchy: &VertexHierarchy, view: &CameraView) -> BTreeSet<u32> {
+pub(crate) fn closure(hierarchy: &VertexHierarchy, view: &CameraView) -> BTreeSet<u32> {
     let needs = |&point: &u32| view.needs(&hierarchy.bound(point));
     let mut stack: Vec<u32> = hierarchy.leaving_points().filter(needs).collect();
     let mut found = BTreeSet::new();
@@ -23,7 +23,8 @@ fn closure(hierarchy: &VertexHierarchy, view: &CameraView) -> BTreeSet<u32> {
     found
 }
 
-fn active(front: &Front) -> BTreeSet<u32> {
+/// The points of a front that may leave.
+pub(crate) fn active(front: &Front) -> BTreeSet<u32> {
     let [points, _] = front.hierarchy().point_counts();
     let may_leave =
         |vertex: &u32| front.hierarchy().may_leave(*vertex) && *vertex < index32(points);

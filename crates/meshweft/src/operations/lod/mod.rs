@@ -18,6 +18,8 @@ mod options;
 mod paths;
 mod pixel_errors;
 mod read_back;
+#[cfg(test)]
+mod real_tests;
 mod recording;
 #[cfg(test)]
 mod recording_tests;
