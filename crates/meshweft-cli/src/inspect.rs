@@ -1,6 +1,5 @@
 //! `inspect`: counts, without writing anything.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Error, Result};
@@ -16,7 +15,7 @@ use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::Size;
 use crate::run::inputs;
 use crate::run::output::{self, Report};
-use crate::run::side_file::PLOT;
+use crate::run::side_file::{PLOT, PendingFile};
 use crate::usage;
 
 #[derive(Debug, Args)]
@@ -70,7 +69,8 @@ pub(crate) fn run(arguments: &Inspect) -> Result<()> {
 fn write_plot(path: &Path, curves: &[Curve]) -> Result<()> {
     let axes = [Axis::of_cache_sizes(), Axis::of_misses(curves)];
     let svg = plot::svg("Misses per face over the cache size", &axes, curves);
-    fs::write(path, svg).with_context(|| path.display().to_string())
+    let written = PendingFile::new(path, svg).and_then(PendingFile::commit);
+    written.with_context(|| path.display().to_string())
 }
 
 /// A file's curve, and those of its orders by each method if they are asked for.

@@ -87,7 +87,7 @@ enum Verb {
     Decompress(Decompress),
     /// Say which faces need not be drawn, from wherever a mesh is seen
     Cull(Cull),
-    /// Draw what can be seen from where the eye is, and no more
+    /// Make, extract, walk around and measure view-dependent levels of detail
     Lod(Lod),
     /// Count cache misses of files as they are
     ///

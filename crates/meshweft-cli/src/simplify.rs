@@ -1,6 +1,5 @@
 //! `simplify`: fewer faces.
 
-use std::fs;
 use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Instant;
@@ -20,7 +19,7 @@ use crate::run::ending::{Ending, where_it_went};
 use crate::run::jobs::{Job, Jobs};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
-use crate::run::side_file::{LEVELS, PLOT, SideFile};
+use crate::run::side_file::{LEVELS, PLOT, PendingFile, SideFile};
 use crate::run::watch::Watch;
 use crate::run::{self, Outcome, write};
 use crate::usage::Usage;
@@ -193,7 +192,8 @@ fn simplify(
     let ended = ending.write(&document, report.is_changed())?;
     if let Some(file) = arguments.plot.as_ref().filter(|_| !arguments.run.dry_run) {
         PLOT.check(file, arguments.run.force)?;
-        fs::write(file, plot(&report)).with_context(|| file.display().to_string())?;
+        let written = PendingFile::new(file, plot(&report)).and_then(PendingFile::commit);
+        written.with_context(|| file.display().to_string())?;
     }
     let notes = ended.tell(&mut report.of_file);
     Ok(Outcome {

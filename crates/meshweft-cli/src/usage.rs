@@ -28,6 +28,15 @@ pub(crate) fn message(error: &Error) -> String {
         return text.replace("drop_attributes", "--drop-attributes");
     }
     match error.downcast_ref() {
+        Some(LodError::Losses { .. }) => {
+            return text.replace("drop_attributes", "--drop-attributes");
+        }
+        Some(LodError::TooLong { .. }) => {
+            return text.replace("raise limits.file_bytes", "allow more with --max-bytes");
+        }
+        _ => {}
+    }
+    match error.downcast_ref() {
         Some(CompressError::Attributes { .. }) => {
             return text.replace("drop_attributes", "--drop-attributes");
         }

@@ -1,6 +1,5 @@
 //! `cull stats`: what culling tables leave out.
 
-use std::fs;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
@@ -13,7 +12,7 @@ use crate::columns::columns;
 use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::Size;
 use crate::run::output::{self, Report};
-use crate::run::side_file::PLOT;
+use crate::run::side_file::{PLOT, PendingFile};
 use crate::usage::Usage;
 
 #[derive(Debug, Args)]
@@ -68,7 +67,8 @@ pub(super) fn run(arguments: &Stats) -> Result<()> {
     if let Some(path) = &arguments.plot {
         options.distances = plotted_distances();
         let report = operations::cull_stats(&document, &options)?;
-        fs::write(path, svg(&report)).with_context(|| path.display().to_string())?;
+        let written = PendingFile::new(path, svg(&report)).and_then(PendingFile::commit);
+        written.with_context(|| path.display().to_string())?;
     }
     match wrong.first() {
         None => Ok(()),

@@ -29,7 +29,7 @@ pub(super) struct Build {
     /// Do everything but write
     #[arg(long)]
     dry_run: bool,
-    /// Leave out what a .mwl file cannot hold; a file that has such is refused without it, and the message names what:
+    /// Leave out what a .mwl file cannot hold. Without it such a file is refused, and the message says what it has:
     /// attributes of corners and faces, or of the vertices of some meshes only, materials, groups, polygons, the borders and
     /// names of several meshes, lines, nodes that are moved or drawn twice, animations, elements of other names
     #[arg(long, display_order = 2)]
@@ -37,7 +37,7 @@ pub(super) struct Build {
     /// Leave out normals, texture coordinates, colors and all else of vertices too: positions and faces alone
     #[arg(long, display_order = 2)]
     positions_only: bool,
-    /// Replace the output, whatever it is
+    /// Replace an output that is not a .mwl file
     #[arg(long, display_order = 99)]
     force: bool,
     #[command(flatten)]
@@ -50,7 +50,6 @@ pub(super) struct Build {
 pub(super) fn run(arguments: &Build) -> Result<()> {
     let start = Instant::now();
     let output = arguments.output.as_deref();
-    let output = output.filter(|_| !arguments.dry_run);
 
     // What cannot be written is reported before a file is read.
     if let Some(output) = output {
@@ -62,6 +61,7 @@ pub(super) fn run(arguments: &Build) -> Result<()> {
         HIERARCHY.check_no_mesh(output, [arguments.input.as_path()])?;
         HIERARCHY.check(output, arguments.force)?;
     }
+    let output = output.filter(|_| !arguments.dry_run);
 
     // The work.
     let mut reading = ReadOptions::default();
@@ -99,7 +99,7 @@ fn text(report: &LodBuildReport) -> String {
     let asides = [
         (
             report.cut_points,
-            "points where the surface is no manifold, which stay",
+            "points where the surface is not a manifold, which stay",
         ),
         (
             report.flat_faces,

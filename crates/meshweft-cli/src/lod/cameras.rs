@@ -61,8 +61,9 @@ pub(super) fn told(path: &CameraPath, file: Option<&Path>) -> String {
 /// A width and a height, such as `800x600`.
 pub(super) fn picture_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').map(|(width, height)| [width, height]);
-    let sides = sides.and_then(|[width, height]| Some([width.parse().ok()?, height.parse().ok()?]));
-    sides.ok_or_else(|| "give width and height in pixels, such as 800x600".to_owned())
+    let side = |text: &str| text.parse().ok().filter(|it| (1..=65535).contains(it));
+    let sides = sides.and_then(|[width, height]| Some([side(width)?, side(height)?]));
+    sides.ok_or_else(|| "give 1 to 65535 pixels for width and height, such as 800x600".to_owned())
 }
 
 #[cfg(test)]
@@ -72,7 +73,17 @@ mod tests {
     #[test]
     fn pictures_have_two_sides() {
         assert_eq!(picture_size("800x600"), Ok([800, 600]));
-        for text in ["", "800", "800x", "x", "800x-1", "8x6x4", "99999999999x1"] {
+        for text in [
+            "",
+            "800",
+            "800x",
+            "x",
+            "800x-1",
+            "8x6x4",
+            "99999999999x1",
+            "0x5",
+            "65536x5",
+        ] {
             assert!(picture_size(text).is_err(), "{text}");
         }
     }

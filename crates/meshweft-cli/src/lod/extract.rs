@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::{ArgGroup, Args};
 use meshweft::files::{self, NewMesh, NewVertices};
 use meshweft::operations::{
@@ -14,6 +14,7 @@ use meshweft::operations::{
 use super::cameras;
 use crate::run::arguments::Size;
 use crate::run::output::Report;
+use crate::run::side_file::HIERARCHY;
 use crate::usage::Usage;
 
 #[derive(Debug, Args)]
@@ -22,13 +23,20 @@ pub(super) struct Extract {
     /// A file that lod build wrote
     #[arg(value_name = "FILE.mwl")]
     input: PathBuf,
-    /// Where to write: a .glb, .gltf, .ply, .obj, .off or .stl file; the last three hold positions and faces alone
+    /// Where to write: a .glb, .gltf, .ply, .obj, .off or .stl file, optionally followed by .gz; the last three hold
+    /// positions and faces alone: give --positions-only with them if vertices have more
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// How far the surface may be off, in units of the positions: 0 for the mesh that the file was built of
-    #[arg(long, value_name = "LENGTH", group = "detail", display_order = 1)]
+    /// Keep every vertex whose error is above this length, in units of the positions: 0 for the mesh that the file was built of
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "LENGTH",
+        group = "detail",
+        display_order = 1
+    )]
     error: Option<f64>,
-    /// At most so many vertices, those of the largest errors
+    /// At most this many vertices, those of the largest errors
     #[arg(long, value_name = "N", group = "detail", display_order = 1)]
     vertices: Option<usize>,
     /// What a camera of this file needs; the file is as for lod walk --path
@@ -38,7 +46,7 @@ pub(super) struct Extract {
     #[arg(long, value_name = "K", conflicts_with_all = ["error", "vertices"], display_order = 2)]
     frame: Option<usize>,
     /// How many pixels the surface may be off [default: 1.5]
-    #[arg(long, value_name = "PIXELS", conflicts_with_all = ["error", "vertices"], display_order = 2)]
+    #[arg(long, allow_negative_numbers = true, value_name = "PIXELS", conflicts_with_all = ["error", "vertices"], display_order = 2)]
     tolerance: Option<f64>,
     /// The picture, in pixels [default: 800x800]
     #[arg(long, value_name = "WxH", conflicts_with_all = ["error", "vertices"], value_parser = cameras::picture_size, display_order = 2)]
@@ -90,9 +98,21 @@ pub(super) fn run(arguments: &Extract) -> Result<()> {
         .check()
         .map_err(|error| Usage(format!("--{error}")))?;
 
+    // What cannot be written is reported before a file is read.
+    HIERARCHY.check_no_mesh(&arguments.output, [arguments.input.as_path()])?;
+    if let Some(cameras) = &arguments.camera {
+        HIERARCHY.check_other(&arguments.output, cameras, "--camera")?;
+    }
+
     // The work.
     let name = || arguments.input.display().to_string();
     let source = fs::File::open(&arguments.input).with_context(name)?;
+    if !source.metadata().with_context(name)?.is_file() {
+        bail!(
+            "{}: this is a folder, a pipe or a device: name a file",
+            name()
+        );
+    }
     let extracted = operations::lod_extract(source, &arguments.input, &options)?;
     let ExtractedMesh {
         name,

@@ -25,7 +25,7 @@ enum Verb {
     /// Write a mesh with every level of detail to a .mwl file
     ///
     /// All meshes of the file become one. What is written is read back and compared: full detail is the input, face for face and
-    /// bit for bit. What all vertices store besides their positions is kept. A file that holds more is refused without
+    /// bit for bit, without faces that have two corners at one place and vertices that no face uses. What all vertices store besides their positions is kept. A file that holds more is refused without
     /// --drop-attributes.
     ///
     ///   meshweft lod build scan.ply -o scan.mwl
@@ -62,7 +62,7 @@ enum Verb {
     /// Measure how far what is drawn is from the mesh at full detail
     ///
     /// In some frames of a path every vertex at full detail that is in the picture and faces the eye is measured: its distance to
-    /// the nearest point of the drawn faces, in the picture, over the tolerance. Nothing is estimated. A face is turned if it
+    /// the nearest point of the drawn faces, in pixels, divided by the tolerance. Nothing is estimated. A face is turned if it
     /// looks against the mean of the normals that its vertices have at full detail. Nothing is written.
     ///
     ///   meshweft lod verify scan.ply

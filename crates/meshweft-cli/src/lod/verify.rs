@@ -22,23 +22,23 @@ pub(super) struct Verify {
     /// circle: once around; rotate: small turns to and fro; zoom: in and out; fly: close, turning; or a file of cameras
     #[arg(long, value_name = "PATH", default_value = "circle")]
     path: String,
-    /// How many frames, evenly on the path [default: 9]
+    /// How many frames, evenly on the path, at most all of a file of cameras [default: 9]
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
     /// How many pixels the surface may be off
-    #[arg(long, value_name = "PIXELS", default_value_t = LodVerifyOptions::default().tolerance)]
+    #[arg(long, allow_negative_numbers = true, value_name = "PIXELS", default_value_t = LodVerifyOptions::default().tolerance)]
     tolerance: f64,
     /// A vertex stays until its error is this part of the tolerance: 1 for never longer than needed
-    #[arg(long, value_name = "PART", default_value_t = LodVerifyOptions::default().hysteresis)]
+    #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = LodVerifyOptions::default().hysteresis)]
     hysteresis: f64,
     /// The picture, in pixels
     #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = cameras::picture_size)]
     size: [u32; 2],
-    /// Exit with 1 unless this many of 100 vertices are within the tolerance, over all frames
-    #[arg(long, value_name = "PERCENT")]
+    /// Exit with 1 if less than this percentage of the measured vertices is within the tolerance, over all frames
+    #[arg(long, allow_negative_numbers = true, value_name = "PERCENT")]
     min_share: Option<f64>,
-    /// Exit with 1 if a vertex is more tolerances off than this
-    #[arg(long, value_name = "TIMES")]
+    /// Exit with 1 if a vertex is farther off than this many tolerances
+    #[arg(long, allow_negative_numbers = true, value_name = "TIMES")]
     max_error: Option<f64>,
     #[command(flatten)]
     limits: Size,

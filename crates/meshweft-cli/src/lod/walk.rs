@@ -1,6 +1,5 @@
 //! `lod walk`: what each frame of a path costs.
 
-use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -16,7 +15,7 @@ use crate::columns::columns;
 use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::Size;
 use crate::run::output::{self, Report};
-use crate::run::side_file::PLOT;
+use crate::run::side_file::{PLOT, PendingFile};
 use crate::run::watch::Watch;
 use crate::usage::Usage;
 
@@ -28,7 +27,7 @@ pub(super) struct Walk {
     /// circle: once around; rotate: small turns to and fro; zoom: in and out; fly: close, turning; or a file of cameras
     #[arg(long, value_name = "PATH", default_value = "circle")]
     path: String,
-    /// How many frames [default: 1000, or all of a file of cameras]
+    /// How many frames, at most all of a file of cameras [default: 1000, or all of a file of cameras]
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
     /// How many slots the vertex buffer has
@@ -38,10 +37,10 @@ pub(super) struct Walk {
     #[arg(long, value_name = "POLICY", default_value = "finest")]
     policy: Policy,
     /// How many pixels the surface may be off
-    #[arg(long, value_name = "PIXELS", default_value_t = LodWalkOptions::default().tolerance)]
+    #[arg(long, allow_negative_numbers = true, value_name = "PIXELS", default_value_t = LodWalkOptions::default().tolerance)]
     tolerance: f64,
     /// A vertex stays until its error is this part of the tolerance: 1 for never longer than needed
-    #[arg(long, value_name = "PART", default_value_t = LodWalkOptions::default().hysteresis)]
+    #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = LodWalkOptions::default().hysteresis)]
     hysteresis: f64,
     /// The picture, in pixels
     #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = cameras::picture_size)]
@@ -115,6 +114,9 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
     (options.path, options.camera_file) = cameras::path(&arguments.path, options.size, limits)?;
     if let Some(path) = &arguments.plot {
         PLOT.check_no_mesh(path, [arguments.input.as_path()])?;
+        if let Some(cameras) = &options.camera_file {
+            PLOT.check_other(path, cameras, "--path")?;
+        }
         PLOT.check(path, arguments.force)?;
     }
 
@@ -132,7 +134,8 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
     let notes = output::note_lines(&report.file, &report.notes);
     arguments.report.notes(&notes)?;
     if let Some(path) = &arguments.plot {
-        fs::write(path, svg(&report)).with_context(|| path.display().to_string())?;
+        let written = PendingFile::new(path, svg(&report)).and_then(PendingFile::commit);
+        written.with_context(|| path.display().to_string())?;
     }
     Ok(())
 }
@@ -216,7 +219,7 @@ fn text(report: &LodWalkReport) -> String {
                 format!(" that, {times:.3} times the fewest possible, {fewest}")
             }
             None => {
-                " that; the fewest possible is not known, as a frame has more than slots".to_owned()
+                " that; the fewest possible is not known, as a frame has more vertices than there are slots".to_owned()
             }
         };
     }

@@ -204,7 +204,7 @@ fn cameras_come_from_a_file() {
         (
             &["fly", "--size", "800"],
             2,
-            "give width and height in pixels, such as 800x600",
+            "give 1 to 65535 pixels for width and height, such as 800x600",
         ),
         (
             &["fly", "--size", "0x9"],
@@ -227,7 +227,7 @@ fn cameras_come_from_a_file() {
     assert_eq!(run.code(), 1);
     assert!(
         run.err()
-            .contains("points.off: there are no faces with three corners apart"),
+            .contains("points.off: no face has three different corners"),
         "{}",
         run.err()
     );

@@ -56,7 +56,7 @@ fn what_a_file_would_lose_is_named() {
         "two.obj: a .mwl file has positions, faces and attributes that all vertices have, and ",
         "texture coordinates (vt), materials (usemtl), several objects (o), ",
         "polygons, which become triangles",
-        "drop_attributes",
+        "--drop-attributes",
     ] {
         assert!(run.err().contains(expected), "{}", run.err());
     }
@@ -101,7 +101,7 @@ fn no_file_of_others_is_written_over() {
         (
             &["points.off", "-o", "a.mwl"],
             1,
-            "points.off: there are no faces with three corners apart",
+            "points.off: no face has three different corners",
         ),
         (&["gone.obj", "-o", "a.mwl"], 1, "gone.obj"),
     ];

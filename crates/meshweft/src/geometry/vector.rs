@@ -19,7 +19,7 @@ pub fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The vector of length 1 in the same direction; of the zero vector, itself.
+/// The vector of length 1 in the same direction; of the zero vector, and of one that is not finite, itself.
 #[must_use]
 pub fn normalized(a: [f32; 3]) -> [f32; 3] {
     let square = dot(a, a);
@@ -29,8 +29,10 @@ pub fn normalized(a: [f32; 3]) -> [f32; 3] {
     }
     // Squares of very small or very large coordinates do not fit: take them relative to the largest.
     let largest = a.iter().fold(0.0_f32, |largest, x| largest.max(x.abs()));
-    match largest.is_finite() && largest > 0.0 {
-        true => normalized(a.map(|x| x / largest)),
+    let relative = a.map(|x| x / largest);
+    let length = dot(relative, relative).sqrt();
+    match length.is_normal() {
+        true => relative.map(|x| x / length),
         false => a,
     }
 }
@@ -52,5 +54,8 @@ mod tests {
         assert_eq!(normalized([0.0; 3]), [0.0; 3]);
         assert_eq!(normalized([0.0, 1e-40, 0.0]), [0.0, 1.0, 0.0]);
         assert_eq!(normalized([-3e38, 0.0, 0.0]), [-1.0, 0.0, 0.0]);
+        assert!(normalized([f32::NAN, 1.0, 0.0])[0].is_nan());
+        let infinite = [f32::INFINITY, 1.0, 0.0];
+        assert_eq!(normalized(infinite), infinite);
     }
 }

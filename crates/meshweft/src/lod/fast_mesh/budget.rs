@@ -146,7 +146,7 @@ impl Front {
 
             // What was not read before may be less urgent than it seemed to be.
             let is_new = self.fetch(most.point, loader)?;
-            if is_new || *self.waiting_bound(most.point) != most.bound {
+            if is_new || !self.waiting_bound(most.point).is_same(&most.bound) {
                 queues.splits.pop();
                 return Ok(Some(FrontStep::LookAgain(most.point)));
             }

@@ -1,6 +1,6 @@
 //! Cones around the normals of faces, in four bytes.
 
-use crate::geometry::double::dot;
+use crate::geometry::double::{add, cross, dot, sub};
 
 /// The directions at most an angle from an axis; in 32 bits, rounded to a larger cone.
 ///
@@ -63,10 +63,60 @@ impl PackedCone {
                 widest = [sum, across * cosine + between * sine];
             }
         }
-        if widest[0] <= 0.0 {
+        Self::packed(axis_bits, widest)
+    }
+
+    /// Around each of some points the cone that has the normals of all faces there; a face is its three points and where these are.
+    pub(super) fn around_points(
+        count: usize,
+        faces: impl Iterator<Item = ([u32; 3], [[f64; 3]; 3])> + Clone,
+    ) -> Vec<Self> {
+        // Large faces decide where an axis is.
+        let mut axes = vec![[0.0; 3]; count];
+        for (points, [a, b, c]) in faces.clone() {
+            let normal = cross(sub(b, a), sub(c, a));
+            for point in points {
+                axes[point as usize] = add(axes[point as usize], normal);
+            }
+        }
+        let axes: Vec<u32> = axes.into_iter().map(folded).collect();
+
+        let mut cosines = vec![1.0_f64; count];
+        for (points, [a, b, c]) in faces {
+            let normal = cross(sub(b, a), sub(c, a));
+            let length = dot(normal, normal).sqrt();
+            if length > 0.0 {
+                for point in points {
+                    let cosine = dot(unfolded(axes[point as usize]), normal) / length;
+                    let least = &mut cosines[point as usize];
+                    *least = least.min(cosine);
+                }
+            }
+        }
+        let cone = |(axis, cosine): (u32, f64)| {
+            let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+            Self::packed(axis, [cosine, sine])
+        };
+        axes.into_iter().zip(cosines).map(cone).collect()
+    }
+
+    /// This cone, wider if others are not in it.
+    pub(super) fn with(self, others: impl Iterator<Item = Self> + Clone) -> Self {
+        match self.parts() {
+            Some((axis, _)) if !others.clone().all(|it| self.contains(it)) => {
+                Self::around(axis, std::iter::empty(), others.chain([self]))
+            }
+            _ => self,
+        }
+    }
+
+    /// The cone around an axis with an angle of this cosine and sine.
+    fn packed(axis_bits: u32, [cosine, sine]: [f64; 2]) -> Self {
+        if cosine <= 0.0 {
             return Self::ALL;
         }
-        let sine = ((widest[1] + ROOM) * f64::from(ALL)).ceil();
+        let axis = unfolded(axis_bits);
+        let sine = ((sine + ROOM) * f64::from(ALL)).ceil();
         let is_known = sine < f64::from(ALL) && axis.iter().all(|x| x.is_finite());
         #[expect(
             clippy::cast_possible_truncation,
@@ -90,7 +140,6 @@ impl PackedCone {
     }
 
     /// Whether another cone is in this one.
-    #[cfg(test)]
     pub(super) fn contains(self, other: Self) -> bool {
         let Some((axis, [cosine, _])) = self.parts() else {
             return true;
@@ -183,7 +232,7 @@ fn unfolded(bits: u32) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::double::{add, scaled, sub};
+    use crate::geometry::double::scaled;
     use crate::random::SplitMix64;
 
     fn unit(random: &mut SplitMix64) -> [f64; 3] {

@@ -38,6 +38,11 @@ impl NearestFaces {
         }
     }
 
+    /// The points that were given to other faces last.
+    pub(super) fn given(&self) -> &[u32] {
+        &self.homeless
+    }
+
     /// Gives them to the nearest of some faces, which are there now; returns how far the farthest is.
     pub(super) fn give(
         &mut self,

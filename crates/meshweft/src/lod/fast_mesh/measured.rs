@@ -23,23 +23,18 @@ impl Replay<'_> {
     pub(super) fn measure(&mut self, measure: Measure) {
         let order = self.order_of_errors();
         self.split_all();
-        let mut errors = vec![0.0; order.len()];
         for number in order {
-            errors[number as usize] = self.collapse_again(number);
+            let error = self.collapse_again(number);
+            let node = &mut self.nodes[self.made[number as usize].point as usize];
+            match measure {
+                Measure::Now => node.error = error,
+                Measure::Larger => {
+                    node.error = node.error.max(error);
+                    self.contain_measured(number);
+                }
+            }
         }
-
-        // In the order of the build, where those below come first.
-        for (error, made) in errors.into_iter().zip(&self.made) {
-            let node = self.nodes[made.point as usize];
-            let below = [node.first_child, node.next_sibling].into_iter();
-            let below = below.filter(|&it| it != NONE);
-            let least = match measure {
-                Measure::Now => error,
-                Measure::Larger => error.max(node.error),
-            };
-            let errors = below.map(|it| self.nodes[it as usize].error);
-            self.nodes[made.point as usize].error = errors.fold(least, f32::max);
-        }
+        self.contain_below();
     }
 
     /// The collapses in the order of the least tolerances at which their points are not active: they neither fail nor are needed

@@ -60,6 +60,9 @@ mod tested;
 pub(crate) mod tests;
 mod view;
 
+#[cfg(test)]
+pub(crate) use stored::reseal;
+
 pub use budget::FrameBudget;
 pub use build::FastMesh;
 pub use changes::FrontChanges;

@@ -31,6 +31,8 @@ pub(super) struct Replay<'a> {
     /// The number here of each face of the input.
     face_of: Vec<u32>,
     deviation: NearestFaces,
+    /// Around the normals of the input's faces at each point.
+    cones: Vec<PackedCone>,
     /// The faces around the point that leaves; those that stay, with their corners; and normals of both.
     faces: Vec<u32>,
     staying: Vec<(u32, [[f64; 3]; 3])>,
@@ -64,8 +66,12 @@ impl<'a> Replay<'a> {
         for (half_edge, &vertex) in (0..).zip(faces.as_flattened()) {
             edges.set_start(half_edge, vertex);
         }
+        let place = |vertex: u32| widened(positions[vertex as usize]);
+        let placed = points.iter().map(|&face| (face, face.map(place)));
+        let cones = PackedCone::around_points(positions.len(), placed);
         Self {
             positions,
+            cones,
             nodes: vec![HierarchyNode::ROOT; positions.len()],
             made: Vec::with_capacity(removals.last_level()),
             deviation: NearestFaces::new(faces.len(), positions.len()),
@@ -189,6 +195,46 @@ impl<'a> Replay<'a> {
         rounded_up(self.leave(point, edge, leaving))
     }
 
+    /// The ball and the cone of the point that left last contain the points whose distances are its error, and the normals there:
+    /// these may be seen where the faces that were there are not.
+    pub(super) fn contain_measured(&mut self, number: u32) {
+        let point = self.made[number as usize].point;
+        let node = self.nodes[point as usize];
+        let middle = self.position(node.parent);
+        let measured = self.deviation.given();
+        let mut square = 0.0_f64;
+        for &point in measured {
+            let way = sub(self.position(point), middle);
+            square = square.max(dot(way, way));
+        }
+        let cones = measured.iter().map(|&point| self.cones[point as usize]);
+        let cone = node.cone.with(cones);
+        let node = &mut self.nodes[point as usize];
+        node.radius = node.radius.max(with_room(square.sqrt()));
+        node.cone = cone;
+    }
+
+    /// Every node contains those below, in the order of the build, where these come first.
+    pub(super) fn contain_below(&mut self) {
+        for made in &self.made {
+            let mut node = self.nodes[made.point as usize];
+            let way = sub(self.position(made.point), self.position(node.parent));
+            let step = dot(way, way).sqrt();
+            for (below, step) in [(node.first_child, step), (node.next_sibling, 0.0)] {
+                if below != NONE {
+                    let below = self.nodes[below as usize];
+                    let reach = f64::from(below.radius) + step;
+                    if reach > f64::from(node.radius) {
+                        node.radius = with_room(reach);
+                    }
+                    node.error = node.error.max(below.error);
+                    node.cone = node.cone.with(std::iter::once(below.cone));
+                }
+            }
+            self.nodes[made.point as usize] = node;
+        }
+    }
+
     /// Remembers the normal of a face with an area; returns it, as long as the area is large.
     fn put_normal(&mut self, [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
         let normal = cross(sub(b, a), sub(c, a));
@@ -225,8 +271,7 @@ impl<'a> Replay<'a> {
         let cones = below.map(|(node, _)| node.cone);
         let node = HierarchyNode {
             error,
-            // By more than what rounding may do to a test.
-            radius: rounded_up(reach * (1.0 + 1e-6)),
+            radius: with_room(reach),
             cone: PackedCone::around(axis, self.normals.iter().copied(), cones),
             parent,
             first_child,
@@ -235,6 +280,11 @@ impl<'a> Replay<'a> {
         self.nodes[point as usize] = node;
         self.nodes[parent as usize].first_child = point;
     }
+}
+
+/// A radius, larger by more than what rounding may do to a test.
+fn with_room(radius: f64) -> f32 {
+    rounded_up(radius * (1.0 + 1e-6))
 }
 
 /// The least `f32` that is not below a number.

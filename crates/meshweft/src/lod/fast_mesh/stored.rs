@@ -444,7 +444,7 @@ impl Head {
 
 /// Gives the blocks and the head of damaged bytes the checksums that they should have, as far as the head can be read.
 #[cfg(test)]
-pub(super) fn reseal(bytes: &mut [u8]) {
+pub(crate) fn reseal(bytes: &mut [u8]) {
     let Some((front, rest)) = bytes.split_first_chunk_mut::<FRONT_BYTES>() else {
         return;
     };

@@ -43,7 +43,7 @@ pub enum HierarchyError {
 }
 
 /// What to do about damage.
-const CURE: &str = "copy it once more, or build it from the mesh with `meshweft lod build`";
+const CURE: &str = "copy it again, or build it again from the mesh with `meshweft lod build`";
 
 impl fmt::Display for HierarchyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -58,12 +58,12 @@ impl fmt::Display for HierarchyError {
                 }
                 DecodeErrorKind::EndsEarly => write!(
                     f,
-                    "byte {byte}: what the file says does not agree with its length: {CURE}"
+                    "byte {byte}: the file is cut, or has more bytes than it should: {CURE}"
                 ),
                 DecodeErrorKind::Unknown { what, found } => write!(
                     f,
                     "byte {byte}: {what} {found} is not known. A later version of meshweft may have written the file: update \
-                     meshweft, or {CURE}"
+                     meshweft. Otherwise {CURE}"
                 ),
                 DecodeErrorKind::AboveLimit { what, said, limit } => write!(
                     f,

@@ -23,25 +23,25 @@ fn errors_say_what_and_where() {
     );
     assert_eq!(
         changed(4, 9),
-        "byte 4: version 9 is not known. A later version of meshweft may have written the file: update meshweft, or copy it \
-         once more, or build it from the mesh with `meshweft lod build`"
+        "byte 4: version 9 is not known. A later version of meshweft may have written the file: update meshweft. \
+         Otherwise copy it again, or build it again from the mesh with `meshweft lod build`"
     );
     for (found, expected) in [
         (
             changed(20, 99),
-            "byte 13: the file is damaged: copy it once more, or build it",
+            "byte 13: the file is damaged: copy it again, or build it",
         ),
         (
             changed(bytes.len() - 1, 99),
-            ": the file is damaged: copy it once more, or build it",
+            ": the file is damaged: copy it again, or build it",
         ),
         (
             error(&bytes[..bytes.len() - 1]),
-            ": what the file says does not agree with its length: copy it",
+            ": the file is cut, or has more bytes than it should: copy it",
         ),
         (
             error(&bytes[..7]),
-            "byte 7: what the file says does not agree with its length",
+            "byte 7: the file is cut, or has more bytes than it should",
         ),
         (error(b""), "byte 0: this is not a .mwl file"),
     ] {

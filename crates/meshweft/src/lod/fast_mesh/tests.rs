@@ -401,6 +401,27 @@ fn largest_left(front: &Front, hierarchy: &VertexHierarchy, view: &CameraView) -
 }
 
 #[test]
+fn a_budget_ends_where_places_are_not_numbers() {
+    let mut random = SplitMix64(from_environment("MESHWEFT_SEED", 3));
+    for (name, mesh, attributes) in examples() {
+        let mut hierarchy = FastMesh::default().build(&mesh, &attributes).unwrap();
+        for place in hierarchy.positions.iter_mut().step_by(5) {
+            place[1] = f32::NAN;
+        }
+        let mut front = Front::new(hierarchy);
+        let budget = FrameBudget {
+            vertices: 2 * front.vertex_count() + 20,
+            ..FrameBudget::default()
+        };
+        let everything = CameraView::of_errors_above(-1.0).unwrap();
+        for view in [everything, camera(&mut random, 25.0)] {
+            front.update_within(&view, 1.0, budget);
+            assert!(front.vertex_count() <= budget.vertices, "{name}");
+        }
+    }
+}
+
+#[test]
 fn a_budget_of_vertices_is_never_exceeded_and_spent_where_errors_are_seen_most() {
     let mut random = SplitMix64(7);
     for (name, mesh, attributes) in examples() {

@@ -55,7 +55,7 @@ impl fmt::Display for ViewError {
                 "the camera has no direction: give a target other than the eye, and an up vector that is not along the line of sight"
             }
             Self::OutOfRange => {
-                "the field of view is between 0 and 180 degrees, the picture at least one pixel wide and high, and the tolerance above 0 pixels"
+                "a number of the camera is out of its range: give a field of view above 0 and below 180 degrees, a picture of at least 1 by 1 pixel, and a tolerance above 0"
             }
         })
     }
@@ -64,13 +64,30 @@ impl fmt::Display for ViewError {
 impl std::error::Error for ViewError {}
 
 /// A place where the mesh may be coarser: all that there is of it is in a ball, its normals in a cone.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct DetailBound {
     pub(super) center: [f32; 3],
     pub(super) radius: f32,
     /// How far the coarse surface is from the input's vertices.
     pub(super) error: f32,
     pub(super) cone: Cone,
+}
+
+impl DetailBound {
+    /// Whether another one is the same, bit for bit: numbers that are not finite are the same as themselves.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let bits = |it: &Self| {
+            let Self {
+                center: [x, y, z],
+                radius,
+                error,
+                cone,
+            } = *it;
+            let [u, v, w] = cone.axis;
+            [x, y, z, radius, error, u, v, w, cone.cosine, cone.sine].map(f32::to_bits)
+        };
+        bits(self) == bits(other)
+    }
 }
 
 impl Camera {

@@ -183,7 +183,7 @@ fn used_vertices(mesh: &Mesh) -> usize {
     is_used.into_iter().filter(|&used| used).count()
 }
 
-/// The attributes of vertices that all meshes with faces have; none if one has others.
+/// The attributes of vertices that all meshes with faces have.
 fn attributes_of_all(document: &Document) -> Vec<AttributeInfo> {
     let entries = document.meshes().iter().enumerate();
     let with_faces = entries.filter(|(_, entry)| entry.mesh.face_count() > 0);
@@ -199,11 +199,11 @@ fn attributes_of_all(document: &Document) -> Vec<AttributeInfo> {
         });
         attributes
     });
-    let first = each.next().unwrap_or_default();
-    match each.all(|other| other == first) {
-        true => first,
-        false => Vec::new(),
+    let mut common = each.next().unwrap_or_default();
+    for other in each {
+        common.retain(|info| other.contains(info));
     }
+    common
 }
 
 /// Whether everything of a document can be in the file, with the attributes that are kept, but for what the options leave out.

@@ -53,11 +53,8 @@ fn cameras(text: &[u8], size: [u32; 2]) -> Result<Vec<Camera>, Problem> {
     // The whole file.
     let file: &RawValue = serde_json::from_slice(text).map_err(|error| {
         let what = match error.is_eof() {
-            true => "the text ends before its JSON does: complete it".to_owned(),
-            false => format!(
-                "this is not JSON from column {} on: fix it there",
-                error.column()
-            ),
+            true => "the text ends before its JSON does".to_owned(),
+            false => format!("this is not JSON from column {} on", error.column()),
         };
         let line = Place::Line(error.line().max(1));
         (line, FileErrorKind::malformed(what))
@@ -224,7 +221,7 @@ mod tests {
         let cases = [
             (
                 "{\n\n[",
-                "a.json: line 3: this is not JSON from column 1 on: fix it there.",
+                "a.json: line 3: this is not JSON from column 1 on. ",
             ),
             (
                 "[]",
@@ -232,7 +229,7 @@ mod tests {
             ),
             (
                 "{\"fov\": 3",
-                "a.json: line 1: the text ends before its JSON does: complete it.",
+                "a.json: line 1: the text ends before its JSON does. ",
             ),
             (
                 &frame(r#"{"eye": null, "target": [1, 1, 1]}"#),

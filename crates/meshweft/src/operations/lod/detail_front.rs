@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use super::loading::load;
 use super::options::LodError;
 use super::source::{LodSource, SourceKind, StoredFile};
+use crate::bits::DecodeError;
 use crate::files::{Document, Note};
 use crate::geometry::Ball;
 use crate::lod::fast_mesh::{CameraView, Front, HierarchyError};
+use crate::lod::geometry_cache::IndexSlotsError;
 use crate::progress::{PartOfWork, Progress};
 
 /// A source whose coarsest mesh is there.
@@ -106,6 +108,21 @@ impl DetailFront {
             Self::Stored(file) => {
                 let done = file.front.update(view, hysteresis).map(|_| ());
                 done.map_err(|error| stored_error(file.path.clone(), Some(frame), error))
+            }
+        }
+    }
+
+    /// The error of a file whose faces do not agree with its vertices: someone made it up.
+    ///
+    /// # Panics
+    /// If the hierarchy was not read from a file.
+    pub(super) fn damaged(&self, frame: usize, error: IndexSlotsError) -> LodError {
+        match self {
+            Self::Whole(_) => panic!("corners of faces of a front are active vertices: {error}"),
+            Self::Stored(file) => {
+                let length = usize::try_from(file.front.bytes()[0]).unwrap_or(usize::MAX);
+                let error = HierarchyError::Decode(DecodeError::damaged(length));
+                stored_error(file.path.clone(), Some(frame), error)
             }
         }
     }

@@ -24,9 +24,9 @@ pub enum LodDetail {
     /// That with every vertex whose error is above this length, in units of the positions, and those that these need. With 0 it is the
     /// mesh that the file was built of.
     Error(f64),
-    /// The best one of at most so many vertices: those of the largest errors.
+    /// The best one of at most this many vertices: those of the largest errors.
     Vertices(usize),
-    /// What a camera needs, if an error of so many pixels may be seen: coarse outside of the picture and on the far side.
+    /// What a camera needs, if an error of this many pixels may be seen: coarse outside of the picture and on the far side.
     Camera {
         /// The camera.
         camera: Camera,
@@ -161,7 +161,7 @@ impl LodExtractReport {
 /// Vertices have the bytes that the input has. Faces of the input with two corners at one place are not in the file.
 ///
 /// # Errors
-/// [`LodError`]: an option is out of its range, the file cannot be read, is damaged, is no such file, or its coarsest mesh has more
+/// [`LodError`]: an option is out of its range, the file cannot be read, is damaged, is not a `.mwl` file, is larger than allowed, or its coarsest mesh has more
 /// vertices than are asked for.
 ///
 /// # Complexity

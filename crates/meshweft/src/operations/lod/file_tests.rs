@@ -285,7 +285,7 @@ fn what_is_asked_for_is_checked() {
     options.limits.file_bytes = 100;
     let long = lod_extract(Cursor::new(&bytes), Path::new("a.mwl"), &options).unwrap_err();
     let expected = format!(
-        "a.mwl: {} bytes, more than the limit of 100: allow more with max_bytes",
+        "a.mwl: {} bytes, more than the limit of 100: raise limits.file_bytes",
         bytes.len()
     );
     assert_eq!(long.to_string(), expected);
@@ -297,7 +297,7 @@ fn what_is_asked_for_is_checked() {
         .to_string();
     assert!(error.starts_with("waves.mwl: byte "), "{error}");
     assert!(
-        error.contains("the file is damaged: copy it once more"),
+        error.contains("the file is damaged: copy it again"),
         "{error}"
     );
 }

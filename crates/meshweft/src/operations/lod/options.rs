@@ -1,4 +1,4 @@
-//! What is asked for, and why a mesh cannot be walked around.
+//! The options of a walk, and the errors of all work with levels of detail.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -143,7 +143,7 @@ impl fmt::Display for WalkOptionError {
 
 impl std::error::Error for WalkOptionError {}
 
-/// Why a mesh cannot be walked around.
+/// Why a mesh cannot be made into a `.mwl` file, taken from one, walked around or measured.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum LodError {
@@ -242,7 +242,7 @@ impl fmt::Display for LodError {
             Self::Option(error) => error.fmt(f),
             Self::NoFaces { file } => write!(
                 f,
-                "{}: there are no faces with three corners apart: name a file with a mesh",
+                "{}: no face has three different corners: name a file with a mesh",
                 file.display()
             ),
             Self::NoPositions { file, mesh } => write!(
@@ -271,7 +271,7 @@ impl fmt::Display for LodError {
             Self::UnreadFaces { file, mesh } => losses::write_unread(f, file, mesh, "built"),
             Self::TooLong { file, bytes, limit } => write!(
                 f,
-                "{}: {bytes} bytes, more than the limit of {limit}: allow more with max_bytes",
+                "{}: {bytes} bytes, more than the limit of {limit}: raise limits.file_bytes",
                 file.display()
             ),
             Self::TooFewVertices { file, asked, least } => write!(

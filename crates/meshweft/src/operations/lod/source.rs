@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{Read, Seek};
+use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 
 use super::options::LodError;
@@ -65,6 +65,10 @@ impl LodSource<'static> {
         let file = File::open(path).map_err(|error| in_file(FileErrorKind::Io(error)))?;
         let length = file.metadata();
         let length = length.map_err(|error| in_file(FileErrorKind::Io(error)))?;
+        if !length.is_file() {
+            let what = "this is a folder, a pipe or a device: name a file";
+            return Err(in_file(FileErrorKind::Io(io::Error::other(what))).into());
+        }
         let limit = options.limits.file_bytes;
         if length.len() > limit {
             let (what, found) = ("bytes", length.len());

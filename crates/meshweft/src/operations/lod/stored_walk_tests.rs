@@ -10,13 +10,16 @@ use super::options::{LodError, LodWalkOptions};
 use super::paths::CameraPath;
 use super::report::LodWalkReport;
 use super::source::LodSource;
+use super::verify::lod_verify;
+use super::verify_options::LodVerifyOptions;
 use super::walk::lod_walk;
 use super::walk_tests::{from_obj, hills, options};
 use crate::files::{Document, ReadOptions};
 use crate::limits::Limits;
-use crate::lod::fast_mesh::FastMesh;
+use crate::lod::fast_mesh::{FastMesh, reseal};
 use crate::lod::geometry_cache::EvictionPolicy;
 use crate::mesh::Mesh;
+use crate::random::{SplitMix64, from_environment};
 
 pub(super) fn bytes_of(document: &Document) -> Vec<u8> {
     let loaded = LoadedFront::new(document.into(), &()).unwrap();
@@ -262,4 +265,51 @@ fn files_are_told_apart_by_how_they_begin() {
         .to_bytes();
     let error = lod_walk(stored(&nothing), &few, &|| 0.0, &()).unwrap_err();
     assert!(matches!(error, LodError::NoFaces { .. }), "{error}");
+}
+
+#[test]
+fn made_up_files_are_walked_around_and_measured_or_refused() {
+    let sound = bytes_of(&hills());
+    let head = 13 + u32::from_le_bytes(sound[5..9].try_into().unwrap()) as usize;
+    let mut random = SplitMix64(from_environment("MESHWEFT_SEED", 8));
+    let (mut done, mut refused) = (0, 0);
+    for _ in 0..from_environment("MESHWEFT_CASES", 300) {
+        let mut bytes = sound.clone();
+        for _ in 0..1 + random.below(4) {
+            let at = head + random.below(bytes.len() - head - 4);
+            let numbers = [f32::NAN, f32::INFINITY, -1e38, 0.0, 1e-40];
+            match random.below(2) {
+                0 => bytes[at] ^= 1 << random.below(8),
+                _ => bytes[at..at + 4].copy_from_slice(&numbers[random.below(5)].to_le_bytes()),
+            }
+        }
+        reseal(&mut bytes);
+        let open = || {
+            let bytes = Cursor::new(bytes.clone());
+            LodSource::stored(Path::new("a.mwl"), bytes, Limits::default())
+        };
+        let options = LodWalkOptions {
+            path: CameraPath::Fly,
+            frames: Some(3),
+            slots: 50,
+            passes: true,
+            optimum: true,
+            tolerance: 0.3,
+            ..LodWalkOptions::default()
+        };
+        let mut measured = LodVerifyOptions::default();
+        measured.frames = Some(2);
+        let walked = open().and_then(|it| lod_walk(it, &options, &|| 0.0, &()).map(|_| ()));
+        let verified = open().and_then(|it| lod_verify(it, &measured, &()).map(|_| ()));
+        for result in [walked, verified] {
+            match result {
+                Ok(()) => done += 1,
+                Err(error) => {
+                    assert!(error.to_string().starts_with("a.mwl: "), "{error}");
+                    refused += 1;
+                }
+            }
+        }
+    }
+    assert!(done > 20 && refused > 20, "{done} {refused}");
 }

@@ -209,7 +209,7 @@ impl Walker {
         let patch = self
             .indices
             .update(&self.cache, &removed_faces, &self.patched)
-            .expect("corners of faces of the front are active vertices");
+            .map_err(|error| self.detail.damaged(number, error))?;
         let patch = patch.statistics();
         let indexed = clock();
 

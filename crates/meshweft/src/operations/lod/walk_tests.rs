@@ -329,7 +329,7 @@ fn what_cannot_be_walked_around_is_told() {
     for text in ["v 0 0 0\n", flat] {
         let error = walk(text, &usual).unwrap_err();
         assert!(
-            error.starts_with("hills.obj: there are no faces with three corners apart"),
+            error.starts_with("hills.obj: no face has three different corners"),
             "{error}"
         );
     }
