@@ -60,7 +60,7 @@ mod tested;
 pub(crate) mod tests;
 mod view;
 
-#[cfg(test)]
+#[cfg(all(test, feature = "files"))]
 pub(crate) use stored::reseal;
 
 pub use budget::FrameBudget;
