@@ -209,12 +209,12 @@ fn cameras_come_from_a_file() {
         (
             &["fly", "--size", "0x9"],
             2,
-            "--size 0x9: give 1 to 65535 pixels",
+            "give 1 to 65535 pixels for width and height",
         ),
         (
             &["path.json", "--plot", "path.json"],
             2,
-            "--plot path.json: this file is not one that --plot writes",
+            "--plot path.json: this is the file of --path: choose another name",
         ),
     ];
     for (flags, code, expected) in cases {

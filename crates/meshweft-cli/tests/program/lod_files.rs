@@ -1,5 +1,7 @@
 //! `lod build` and what is read of its files.
 
+use std::fs;
+
 use crate::Folder;
 use crate::basics::grid_obj;
 use crate::lod::waves_off;
@@ -278,7 +280,7 @@ fn what_cannot_be_extracted_is_told() {
         (
             &[&["damaged.mwl"], &all[..]].concat(),
             1,
-            "build it from the mesh with `meshweft lod build`",
+            "build it again from the mesh with `meshweft lod build`",
         ),
         (&[&["cut.mwl"], &all[..]].concat(), 1, "cut.mwl: byte "),
         (&[&["gone.mwl"], &all[..]].concat(), 1, "gone.mwl"),
@@ -295,6 +297,24 @@ fn what_cannot_be_extracted_is_told() {
     }
     assert!(!folder.0.join("a.ply").exists());
     assert_eq!(folder.read("there.ply"), b"mine");
+
+    // No flag lets it write over its own input.
+    let input = folder.read("waves.mwl");
+    fs::hard_link(folder.0.join("waves.mwl"), folder.0.join("again.svg")).unwrap();
+    let run = folder.run(&[
+        "lod",
+        "extract",
+        "waves.mwl",
+        "--error",
+        "0",
+        "-o",
+        "waves.mwl",
+        "--force",
+    ]);
+    assert_eq!(run.code(), 2, "{}", run.err());
+    let flags = ["--plot", "again.svg", "--force", "--frames", "2"];
+    folder.run(&[&["lod", "walk", "waves.mwl"], &flags[..]].concat());
+    assert!(folder.read("waves.mwl") == input);
 }
 
 #[test]
