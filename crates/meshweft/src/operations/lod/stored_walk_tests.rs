@@ -297,8 +297,10 @@ fn made_up_files_are_walked_around_and_measured_or_refused() {
             tolerance: 0.3,
             ..LodWalkOptions::default()
         };
-        let mut measured = LodVerifyOptions::default();
-        measured.frames = Some(2);
+        let measured = LodVerifyOptions {
+            frames: Some(2),
+            ..LodVerifyOptions::default()
+        };
         let walked = open().and_then(|it| lod_walk(it, &options, &|| 0.0, &()).map(|_| ()));
         let verified = open().and_then(|it| lod_verify(it, &measured, &()).map(|_| ()));
         for result in [walked, verified] {
