@@ -23,6 +23,13 @@ pub(crate) fn closure(hierarchy: &VertexHierarchy, view: &CameraView) -> BTreeSe
     found
 }
 
+/// How many points a view needs by itself, without those that these need.
+#[cfg(feature = "files")]
+pub(crate) fn failing(hierarchy: &VertexHierarchy, view: &CameraView) -> usize {
+    let needs = |&point: &u32| view.needs(&hierarchy.bound(point));
+    hierarchy.leaving_points().filter(needs).count()
+}
+
 /// The points of a front that may leave.
 pub(crate) fn active(front: &Front) -> BTreeSet<u32> {
     let [points, _] = front.hierarchy().point_counts();

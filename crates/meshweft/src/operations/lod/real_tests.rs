@@ -3,7 +3,7 @@
 use crate::files::Document;
 use crate::geometry::Ball;
 use crate::limits::Limits;
-use crate::lod::fast_mesh::tests::{active, closure};
+use crate::lod::fast_mesh::tests::{active, closure, failing};
 use crate::lod::fast_mesh::{Camera, CameraView, FastMesh, Front};
 use crate::mesh::Mesh;
 use crate::random::{SplitMix64, from_environment};
@@ -68,11 +68,19 @@ fn real_fronts_are_the_closure_of_what_the_view_needs() {
         let hierarchy = FastMesh::default().build(&mesh, &[]).unwrap();
         let ball = hierarchy.ball().unwrap();
         let mut front = Front::new(hierarchy.clone());
+        let (mut needed, mut drawn) = (0, 0);
         for _ in 0..paths {
             for view in views(ball, &mut random) {
                 front.update(&view, 1.0);
-                assert!(active(&front) == closure(&hierarchy, &view), "{name}");
+                let active = active(&front);
+                assert!(active == closure(&hierarchy, &view), "{name}");
+                needed += failing(&hierarchy, &view);
+                drawn += active.len();
             }
         }
+        // Few are active only because others need them.
+        let ratio = drawn as f64 / needed as f64;
+        eprintln!("{name}: active over those that the view needs itself {ratio:.3}");
+        assert!(ratio < 1.5, "{name}: {ratio}");
     }
 }
