@@ -10,7 +10,7 @@ use std::io::Cursor;
 
 use libfuzzer_sys::fuzz_target;
 use meshweft::lod::fast_mesh::{Camera, CameraView, FastMesh, FrameBudget, Front, StreamedFront};
-use meshweft::lod::geometry_cache::{Eviction, FrameMode, GeometryCache};
+use meshweft::lod::geometry_cache::{EvictionPolicy, FrameMode, GeometryCache};
 use meshweft::{Limits, Mesh};
 
 fuzz_target!(|data: &[u8]| {
@@ -126,7 +126,8 @@ fn follow(front: &Front, drawn: &mut BTreeMap<u32, [u32; 3]>) {
 /// Three slots draw every face once.
 fn draw_with_few_slots(front: &Front) {
     let errors = vec![1.0; front.hierarchy().vertex_count()];
-    let cache = GeometryCache::new(3, errors, Eviction::FinestFirst).expect("three are enough");
+    let cache =
+        GeometryCache::new(3, errors, EvictionPolicy::FinestFirst).expect("three are enough");
     let mut cache = cache.with_passes();
     let active: Vec<u32> = front.vertices().collect();
     let upload = cache.set_active(&active).expect("vertices that exist");
