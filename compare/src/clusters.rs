@@ -29,7 +29,7 @@ pub struct ErrorSphere {
 }
 
 impl ErrorSphere {
-    /// How large the error is seen from an eye for which a length of 1 at distance 1 has so many pixels.
+    /// How large the error is seen from an eye for which a length of 1 at distance 1 has this many pixels.
     #[must_use]
     pub fn pixels(&self, eye: [f64; 3], scale: f64) -> f64 {
         let distance = length(sub(self.center.map(f64::from), eye)) - f64::from(self.radius);

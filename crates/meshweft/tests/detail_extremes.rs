@@ -1,5 +1,8 @@
 //! View-dependent detail of meshes at the edges of what there is, from cameras at the edges of what there is.
 
+#[path = "data/placed_faces.rs"]
+mod placed_faces;
+
 use std::collections::BTreeSet;
 
 use meshweft::Mesh;
@@ -7,6 +10,7 @@ use meshweft::lod::fast_mesh::{
     Camera, CameraView, FastMesh, FrameBudget, Front, VertexHierarchy, ViewError,
 };
 use meshweft::lod::geometry_cache::{EvictionPolicy, FrameMode, GeometryCache};
+use placed_faces::placed_faces;
 
 const CAMERA: Camera = Camera {
     eye: [7.0, 9.0, 30.0],
@@ -58,21 +62,6 @@ fn check(front: &Front) {
     assert_eq!(numbers.len(), front.face_count());
 }
 
-/// Faces by the bits of their corners' positions, each beginning with the least.
-fn placed(mesh: &Mesh, faces: impl Iterator<Item = [u32; 3]>) -> Vec<[[u32; 3]; 3]> {
-    let bits = |vertex: u32| mesh.positions()[vertex as usize].map(|x| (x + 0.0).to_bits());
-    let mut placed: Vec<_> = faces
-        .map(|face| {
-            let mut corners = face.map(bits);
-            let first = (0..3).min_by_key(|&slot| corners[slot]).unwrap();
-            corners.rotate_left(first);
-            corners
-        })
-        .collect();
-    placed.sort_unstable();
-    placed
-}
-
 /// From a few places it is a mesh, fully refined it is the input, and it is shallow. Returns how many faces are drawn at least and
 /// at most.
 fn check_all(name: &str, mesh: &Mesh, cameras: &[Camera]) -> [usize; 2] {
@@ -103,12 +92,12 @@ fn check_all(name: &str, mesh: &Mesh, cameras: &[Camera]) -> [usize; 2] {
     check(&front);
     let sources = front.hierarchy().source_vertices();
     let of_input = |face: [u32; 3]| face.map(|vertex| sources[vertex as usize]);
-    let found = placed(mesh, front.faces().map(|(_, face)| of_input(face)));
+    let found = placed_faces(mesh, front.faces().map(|(_, face)| of_input(face)));
     let kept = (0..)
         .zip(mesh.faces())
         .filter(|(number, _)| !flat.contains(number));
     assert!(
-        found == placed(mesh, kept.map(|(_, &face)| face)),
+        found == placed_faces(mesh, kept.map(|(_, &face)| face)),
         "{name}: another mesh"
     );
     drawn

@@ -7,6 +7,8 @@ mod data;
 mod files;
 #[path = "data/placed.rs"]
 mod placed;
+#[path = "data/placed_faces.rs"]
+mod placed_faces;
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -16,6 +18,7 @@ use meshweft::lod::fast_mesh::{Camera, CameraView, FastMesh, FrameBudget, Front,
 use meshweft::operations::{CameraPath, LodVerifyOptions, lod_verify};
 use meshweft::{Limits, Mesh};
 use placed::open;
+use placed_faces::placed_faces;
 
 /// Meshes that are walked around: closed ones, some with borders, and one with points where it is not a manifold.
 const MESHES: [&str; 10] = [
@@ -283,7 +286,7 @@ fn least_tolerance([low, high]: [f64; 2], mut holds: impl FnMut(f64) -> bool) ->
     Some(high)
 }
 
-/// The best mesh of so many vertices: what it leaves out is seen at most 1.15 times as large as what the finest front of
+/// The best mesh of a number of vertices: what it leaves out is seen at most 1.15 times as large as what the finest front of
 /// one tolerance leaves out that has no more vertices. `MESHWEFT_CASES` and `MESHWEFT_SEED` give other paths.
 #[test]
 fn a_budget_is_kept_in_every_frame_and_spent_well() {
@@ -378,21 +381,6 @@ fn errors_are_what_was_asked_for() {
             }
         }
     }
-}
-
-/// Faces by the positions of their corners, each beginning with the least.
-fn placed_faces(mesh: &Mesh, faces: impl Iterator<Item = [u32; 3]>) -> Vec<[[u32; 3]; 3]> {
-    let bits = |vertex: u32| mesh.positions()[vertex as usize].map(|x| (x + 0.0).to_bits());
-    let mut placed: Vec<_> = faces
-        .map(|face| {
-            let mut corners = face.map(bits);
-            let first = (0..3).min_by_key(|&slot| corners[slot]).unwrap();
-            corners.rotate_left(first);
-            corners
-        })
-        .collect();
-    placed.sort_unstable();
-    placed
 }
 
 /// The large ones by hand, with `MESHWEFT_CASES`.

@@ -10,7 +10,7 @@ use crate::{PATHS, mean, worst};
 const PARTS: [f64; 3] = [0.01, 0.03, 0.1];
 /// The tolerance under the budget, in pixels: it is never reached.
 const TOLERANCE: f64 = 0.001;
-/// Frames of a path that are walked; every so many are measured.
+/// Frames of a path that are walked, and how many there are for each that is measured.
 const WALKED: usize = 48;
 const EVERY: usize = 12;
 

@@ -14,7 +14,7 @@ const LOOKS: usize = 6;
 /// Simplified meshes have the errors of a series, in parts of the mesh's extent, in which each is that part of the one before.
 const LARGEST_ERROR: f64 = 0.05;
 const STEP: f64 = 1.0 / 1.05;
-/// All of the series that are looked at, and every so many of them first.
+/// The steps of the series that is searched, and the stride of the first look.
 const STEPS: usize = 200;
 const STRIDE: usize = 5;
 

@@ -8,7 +8,8 @@ use super::paths::CameraPath;
 use crate::attribute::AttributeInfo;
 use crate::error::MeshError;
 use crate::files::FileError;
-use crate::lod::fast_mesh::{HierarchyError, ViewError};
+use crate::geometry::Ball;
+use crate::lod::fast_mesh::{CameraView, HierarchyError, ViewError};
 use crate::lod::geometry_cache::{EvictionPolicy, GeometryCacheError};
 use crate::operations::losses;
 
@@ -64,6 +65,21 @@ impl Default for LodWalkOptions {
 const MOST: usize = 65_535;
 
 impl LodWalkOptions {
+    /// What the camera of a frame of `count` sees; `ball` has the mesh in it.
+    pub(super) fn view(
+        &self,
+        ball: Ball,
+        number: usize,
+        count: usize,
+    ) -> Result<CameraView, LodError> {
+        let camera = self.path.camera(ball, number, count, self.size);
+        let view = camera.view(self.tolerance);
+        view.map_err(|error| LodError::View {
+            frame: number,
+            error,
+        })
+    }
+
     /// Whether every number is in its range.
     ///
     /// # Errors

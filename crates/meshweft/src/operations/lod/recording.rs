@@ -114,14 +114,7 @@ impl WalkRecorder {
         let mut changed = ChangedFront::new(&front);
         let count = options.path.frame_count(options.frames);
         for number in 0..count {
-            let camera = options
-                .path
-                .camera(self.loaded.ball, number, count, options.size);
-            let view = camera.view(options.tolerance);
-            let view = view.map_err(|error| LodError::View {
-                frame: number,
-                error,
-            })?;
+            let view = options.view(self.loaded.ball, number, count)?;
             walk.push_frame(&mut front, &mut changed, &view, clock)?;
             let done = (number + 1) as f64 / count as f64;
             if progress.report(done) == ControlFlow::Break(()) && number + 1 < count {
@@ -130,10 +123,9 @@ impl WalkRecorder {
             }
         }
 
-        walk.report.optimum = options.optimum.then(|| WalkOptimum {
-            distinct_vertices: walk.path.distinct_vertices(),
-            fewest_inserts: walk.path.fewest_inserts(options.slots),
-        });
+        walk.report.optimum = options
+            .optimum
+            .then(|| WalkOptimum::of(&walk.path, options.slots));
         Ok(walk)
     }
 }

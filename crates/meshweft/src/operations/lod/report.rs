@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use super::frame::{WalkFrame, WalkQuantity};
 use super::options::LodWalkOptions;
 use crate::files::Note;
+use crate::lod::geometry_cache::RecordedPath;
 use crate::operations::json;
 
 /// What [`lod_walk`](super::lod_walk) counted.
@@ -53,6 +54,16 @@ pub struct WalkOptimum {
     pub distinct_vertices: usize,
     /// The fewest inserts with this number of slots, by whoever knows the whole path; `None` if a frame has more vertices.
     pub fewest_inserts: Option<u64>,
+}
+
+impl WalkOptimum {
+    /// Those of a path with a number of slots.
+    pub(super) fn of(path: &RecordedPath, slots: usize) -> Self {
+        Self {
+            distinct_vertices: path.distinct_vertices(),
+            fewest_inserts: path.fewest_inserts(slots),
+        }
+    }
 }
 
 /// A figure over the frames of a walk. The first frame, which begins with nothing, is apart.

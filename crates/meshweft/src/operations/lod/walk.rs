@@ -84,12 +84,7 @@ pub fn lod_walk<'a>(
     let count = options.path.frame_count(options.frames);
     let walked = if is_stopped { 0 } else { count };
     for number in 0..walked {
-        let camera = options.path.camera(ball, number, count, options.size);
-        let view = camera.view(options.tolerance);
-        let view = view.map_err(|error| LodError::View {
-            frame: number,
-            error,
-        })?;
+        let view = options.view(ball, number, count)?;
         report.frames.push(walker.frame(&view, number, clock)?);
         let done = (number + 1) as f64 / count as f64;
         if progress.report(done) == ControlFlow::Break(()) && number + 1 < count {
@@ -98,10 +93,9 @@ pub fn lod_walk<'a>(
         }
     }
 
-    report.optimum = walker.path.map(|path| WalkOptimum {
-        distinct_vertices: path.distinct_vertices(),
-        fewest_inserts: path.fewest_inserts(options.slots),
-    });
+    report.optimum = walker
+        .path
+        .map(|path| WalkOptimum::of(&path, options.slots));
     Ok(report)
 }
 
