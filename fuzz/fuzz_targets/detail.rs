@@ -9,8 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
 
 use libfuzzer_sys::fuzz_target;
-use meshweft::lod::fast_mesh::{Camera, CameraView, FastMesh, FrameBudget, Front, StreamedFront};
+use meshweft::lod::fast_mesh::{FastMesh, FrameBudget, Front, StreamedFront};
 use meshweft::lod::geometry_cache::{EvictionPolicy, FrameMode, GeometryCache};
+use meshweft::lod::{Camera, CameraView};
 use meshweft::{Limits, Mesh};
 
 fuzz_target!(|data: &[u8]| {

@@ -7,8 +7,9 @@ use std::io::Cursor;
 use libfuzzer_sys::fuzz_target;
 use meshweft::Limits;
 use meshweft::lod::fast_mesh::{
-    Camera, CameraView, FrameBudget, Front, HierarchyError, StreamedFront, VertexHierarchy,
+    FrameBudget, Front, HierarchyError, StreamedFront, VertexHierarchy,
 };
+use meshweft::lod::{Camera, CameraView};
 
 #[path = "../../compare/src/counting.rs"]
 mod counting;

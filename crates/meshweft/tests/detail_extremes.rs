@@ -6,10 +6,9 @@ mod placed_faces;
 use std::collections::BTreeSet;
 
 use meshweft::Mesh;
-use meshweft::lod::fast_mesh::{
-    Camera, CameraView, FastMesh, FrameBudget, Front, VertexHierarchy, ViewError,
-};
+use meshweft::lod::fast_mesh::{FastMesh, FrameBudget, Front, VertexHierarchy};
 use meshweft::lod::geometry_cache::{EvictionPolicy, FrameMode, GeometryCache};
+use meshweft::lod::{Camera, CameraView, ViewError};
 use placed_faces::placed_faces;
 
 const CAMERA: Camera = Camera {

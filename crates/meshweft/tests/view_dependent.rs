@@ -14,7 +14,8 @@ use std::collections::{BTreeSet, HashMap};
 
 use meshweft::files::Document;
 use meshweft::geometry::Ball;
-use meshweft::lod::fast_mesh::{Camera, CameraView, FastMesh, FrameBudget, Front, VertexHierarchy};
+use meshweft::lod::fast_mesh::{FastMesh, FrameBudget, Front, VertexHierarchy};
+use meshweft::lod::{Camera, CameraView};
 use meshweft::operations::{CameraPath, LodVerifyOptions, lod_verify};
 use meshweft::{Limits, Mesh};
 use placed::open;

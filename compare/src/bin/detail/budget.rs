@@ -1,6 +1,7 @@
 //! The mesh of a budget against the one of a tolerance with as many vertices.
 
-use meshweft::lod::fast_mesh::{Camera, FrameBudget, Front};
+use meshweft::lod::Camera;
+use meshweft::lod::fast_mesh::{FrameBudget, Front};
 
 use crate::pixel_error::{Seen, summary};
 use crate::scene::Scene;

@@ -1,7 +1,7 @@
 //! Bytes that a walk sends, against a hierarchy of clusters.
 
 use compare::clusters::{self, LodCluster};
-use meshweft::lod::fast_mesh::Camera;
+use meshweft::lod::Camera;
 use meshweft::operations::{LodWalkOptions, WalkQuantity, WalkRecorder};
 
 use crate::pixel_error::{Picture, Seen, summary};

@@ -2,7 +2,7 @@
 
 use meshweft::Mesh;
 use meshweft::geometry::Surface;
-use meshweft::lod::fast_mesh::Camera;
+use meshweft::lod::Camera;
 use rayon::prelude::*;
 
 use crate::scene::Scene;

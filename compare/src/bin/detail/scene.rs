@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use meshweft::files::Document;
 use meshweft::geometry::{Ball, vertex_normals};
-use meshweft::lod::fast_mesh::{Camera, FastMesh, Front, VertexHierarchy};
+use meshweft::lod::Camera;
+use meshweft::lod::fast_mesh::{FastMesh, Front, VertexHierarchy};
 use meshweft::operations::CameraPath;
 use meshweft::{Limits, Mesh};
 

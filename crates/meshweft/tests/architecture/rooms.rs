@@ -7,7 +7,7 @@ use crate::sources::Sources;
 
 /// The rooms from the ground up, with the groups of rooms that each may name beside itself: only
 /// such as stand above it in this list, so that every arrow points one way.
-const ROOMS: [(&str, &[&[&str]]); 24] = [
+const ROOMS: [(&str, &[&[&str]]); 25] = [
     ("error", &[]),
     ("index", &[&["error"]]),
     ("limits", &[BOUNDS]),
@@ -20,6 +20,7 @@ const ROOMS: [(&str, &[&[&str]]); 24] = [
     ("first_use", &[BOUNDS, &["faces"]]),
     ("permutation", &[BOUNDS, &["random", "faces"]]),
     ("attribute", &[]),
+    ("height_grid", &[BOUNDS]),
     ("mesh", &[GROUND, &["faces", "permutation"]]),
     ("topology", &[GROUND, &["faces"]]),
     ("partition", &[GROUND, &["faces", "topology"]]),
@@ -70,6 +71,7 @@ const VALUES: &[&str] = &[
     "first_use",
     "permutation",
     "attribute",
+    "height_grid",
     "mesh",
 ];
 const ALGORITHMS: &[&str] = &["topology", "partition", "cache"];
@@ -84,10 +86,12 @@ const OPEN_TO_THE_PROGRAM: [&str; 6] = [
     "attribute",
 ];
 /// … the types at the root …
-const ROOT_TYPES: [&str; 10] = [
+const ROOT_TYPES: [&str; 12] = [
     "Budget",
     "Progress",
     "Mesh",
+    "HeightGrid",
+    "HeightGridError",
     "Faces",
     "FaceOrder",
     "VertexOrder",

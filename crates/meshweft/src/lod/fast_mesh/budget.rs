@@ -6,7 +6,7 @@ use super::changes::FrontChanges;
 use super::front::Front;
 use super::loader::{BlockLoader, Complete};
 use super::queues::{BudgetQueues, Queued};
-use super::view::{CameraView, DetailBound};
+use crate::lod::view::{CameraView, DetailBound};
 
 /// What a frame may have and may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -16,7 +16,8 @@ use crate::progressive::{AttributeWeights, Collapses};
 ///
 /// ```
 /// use meshweft::Mesh;
-/// use meshweft::lod::fast_mesh::{Camera, FastMesh, Front};
+/// use meshweft::lod::Camera;
+/// use meshweft::lod::fast_mesh::{FastMesh, Front};
 /// // A flat square of 8 by 8 cells.
 /// let positions: Vec<[f32; 3]> = (0..81).map(|i| [(i % 9) as f32, (i / 9) as f32, 0.0]).collect();
 /// let cell = |i: u32| [[i, i + 1, i + 9], [i + 9, i + 1, i + 10]];

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 
 use super::tests::examples;
-use super::{CameraView, FastMesh, FrameBudget, Front, StreamedFront, VertexHierarchy, ViewError};
+use super::{FastMesh, FrameBudget, Front, StreamedFront, VertexHierarchy};
 use crate::limits::Limits;
+use crate::lod::{CameraView, ViewError};
 
 /// The points whose errors are above a length, and those that these need.
 fn closure(hierarchy: &VertexHierarchy, length: f64) -> BTreeSet<u32> {

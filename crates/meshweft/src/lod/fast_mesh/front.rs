@@ -6,8 +6,8 @@ use super::loader::{BlockLoader, Complete};
 use super::missing::BLOCK_POINTS;
 use super::queues::BudgetQueues;
 use super::tested::TestedPoints;
-use super::view::{CameraView, DetailBound};
 use crate::index::index32;
+use crate::lod::view::{CameraView, DetailBound};
 use crate::topology::half_edges::NONE;
 
 /// A mesh as coarse as a view allows, which follows the view from frame to frame.

@@ -1,13 +1,13 @@
 //! The vertex hierarchy: what is known of each vertex before there is a camera.
 
-use super::cone::PackedCone;
 use super::full_detail::FullDetail;
 use super::links::Edge;
 use super::missing::MissingBlocks;
 use super::rows::VertexRows;
-use super::view::DetailBound;
 use crate::geometry::Ball;
 use crate::index::index32;
+use crate::lod::cone::PackedCone;
+use crate::lod::view::DetailBound;
 use crate::topology::half_edges::{HalfEdges, NONE};
 
 /// All resolutions of a mesh, for a [`Front`](super::Front): made by [`FastMesh::build`](super::FastMesh::build).

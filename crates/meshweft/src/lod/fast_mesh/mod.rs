@@ -29,7 +29,6 @@ mod attached;
 mod budget;
 mod build;
 mod changes;
-mod cone;
 mod deviation;
 #[cfg(test)]
 mod errors_above_tests;
@@ -58,7 +57,6 @@ mod streamed_tests;
 mod tested;
 #[cfg(test)]
 pub(crate) mod tests;
-mod view;
 
 #[cfg(all(test, feature = "files"))]
 pub(crate) use stored::reseal;
@@ -69,4 +67,3 @@ pub use changes::FrontChanges;
 pub use front::Front;
 pub use hierarchy::VertexHierarchy;
 pub use streamed::{HierarchyError, StreamedFront};
-pub use view::{Camera, CameraView, ViewError};

@@ -3,7 +3,7 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use super::view::{DetailBound, Urgency};
+use crate::lod::view::{DetailBound, Urgency};
 
 /// A point with how urgently it has to be active.
 #[derive(Debug, Clone, Copy)]

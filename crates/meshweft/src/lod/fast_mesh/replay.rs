@@ -1,11 +1,11 @@
 //! The removals of a mesh, played on half-edges, with what has to be known of each.
 
-use super::cone::PackedCone;
 use super::deviation::NearestFaces;
 use super::hierarchy::HierarchyNode;
 use super::links::Edge;
 use crate::geometry::double::{add, cross, dot, scaled, sub, widened};
 use crate::index::index32;
+use crate::lod::cone::PackedCone;
 use crate::progressive::{Collapse, ProgressiveMesh};
 use crate::topology::half_edges::{HalfEdges, NONE, next, previous};
 

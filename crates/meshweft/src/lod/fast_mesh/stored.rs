@@ -14,7 +14,6 @@
 
 use std::ops::Range;
 
-use super::cone::PackedCone;
 use super::fields::{FieldReader, is_sealed, put_difference, put_f32s};
 use super::full_detail::FullDetail;
 use super::hierarchy::{HierarchyNode, VertexHierarchy};
@@ -25,6 +24,7 @@ use crate::attribute::AttributeInfo;
 use crate::bits::{DecodeError, DecodeErrorKind, crc32, varint};
 use crate::index::index32;
 use crate::limits::Limits;
+use crate::lod::cone::PackedCone;
 use crate::topology::half_edges::{HalfEdge, HalfEdges, NONE};
 
 pub(super) const MAGIC: [u8; 4] = *b"MWLD";

@@ -4,9 +4,10 @@ use std::io::Cursor;
 
 use super::full_detail::FullDetail;
 use super::tests::{camera, examples};
-use super::{Camera, FastMesh, FrameBudget, Front, HierarchyError, StreamedFront, VertexHierarchy};
+use super::{FastMesh, FrameBudget, Front, HierarchyError, StreamedFront, VertexHierarchy};
 use crate::geometry::Ball;
 use crate::limits::Limits;
+use crate::lod::Camera;
 use crate::mesh::Mesh;
 use crate::random::{SplitMix64, from_environment};
 

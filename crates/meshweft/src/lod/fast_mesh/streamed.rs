@@ -9,9 +9,9 @@ use super::front::Front;
 use super::hierarchy::VertexHierarchy;
 use super::loader::BlockLoader;
 use super::stored::{FRONT_BYTES, Head, MAGIC};
-use super::view::CameraView;
 use crate::bits::{DecodeError, DecodeErrorKind};
 use crate::limits::Limits;
+use crate::lod::view::CameraView;
 
 /// A [`Front`] of a `.mwl` file: points are read in blocks when a view needs one of them.
 ///

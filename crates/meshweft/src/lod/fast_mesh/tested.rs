@@ -1,7 +1,7 @@
 //! Points that are tested in every frame, with what the test needs side by side.
 
-use super::view::DetailBound;
 use crate::index::index32;
+use crate::lod::view::DetailBound;
 use crate::topology::half_edges::NONE;
 
 /// A list of points in any order, from which each can be taken while the list is gone through.

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::*;
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use crate::index::index32;
+use crate::lod::{Camera, CameraView};
 use crate::mesh::Mesh;
 use crate::progressive::made::{grid, sphere};
 use crate::random::{SplitMix64, from_environment};

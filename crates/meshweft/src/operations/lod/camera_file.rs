@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::value::RawValue;
 
 use crate::files::{FileError, FileErrorKind, Place};
-use crate::lod::fast_mesh::Camera;
+use crate::lod::Camera;
 
 /// Most frames of a walk.
 pub const MOST_FRAMES: usize = 1_000_000;

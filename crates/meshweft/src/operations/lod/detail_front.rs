@@ -8,7 +8,8 @@ use super::source::{LodSource, SourceKind, StoredFile};
 use crate::bits::DecodeError;
 use crate::files::{Document, Note};
 use crate::geometry::Ball;
-use crate::lod::fast_mesh::{CameraView, Front, HierarchyError};
+use crate::lod::CameraView;
+use crate::lod::fast_mesh::{Front, HierarchyError};
 use crate::lod::geometry_cache::IndexSlotsError;
 use crate::progress::{PartOfWork, Progress};
 

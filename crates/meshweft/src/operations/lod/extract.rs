@@ -10,9 +10,8 @@ use super::options::{LodError, WalkOptionError};
 use crate::attribute::{Attribute, AttributeInfo, Semantic};
 use crate::index::index32;
 use crate::limits::Limits;
-use crate::lod::fast_mesh::{
-    Camera, CameraView, FrameBudget, Front, HierarchyError, StreamedFront,
-};
+use crate::lod::fast_mesh::{FrameBudget, Front, HierarchyError, StreamedFront};
+use crate::lod::{Camera, CameraView};
 use crate::mesh::Mesh;
 use crate::operations::json;
 use crate::order::{KCacheReorder, by_first_use};

@@ -9,7 +9,8 @@ use super::options::LodError;
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use crate::files::{Document, Format, NewMesh, NewVertices, ReadOptions};
 use crate::geometry::normalized;
-use crate::lod::fast_mesh::{Camera, Front, VertexHierarchy};
+use crate::lod::Camera;
+use crate::lod::fast_mesh::{Front, VertexHierarchy};
 
 /// Waves over a square, with normals and colours; `start` is where it begins.
 fn waves(start: f32) -> (Vec<Attribute>, Vec<[u32; 3]>) {

@@ -1,7 +1,7 @@
 //! What a camera sees of points, by projecting them: it shares nothing with the bounds that a front tests.
 
 use crate::geometry::double::{cross, dot, scaled, sub, widened};
-use crate::lod::fast_mesh::Camera;
+use crate::lod::Camera;
 
 /// A camera as its axes.
 #[derive(Debug, Clone, Copy)]

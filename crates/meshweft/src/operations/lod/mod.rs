@@ -36,7 +36,7 @@ mod walk;
 #[cfg(test)]
 mod walk_tests;
 
-pub use crate::lod::fast_mesh::Camera;
+pub use crate::lod::Camera;
 pub use crate::lod::geometry_cache::EvictionPolicy;
 pub use build::{LodBuildOptions, LodBuildReport, lod_build};
 pub use camera_file::{MOST_FRAMES, cameras_from_json};

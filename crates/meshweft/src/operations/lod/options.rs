@@ -9,8 +9,9 @@ use crate::attribute::AttributeInfo;
 use crate::error::MeshError;
 use crate::files::FileError;
 use crate::geometry::Ball;
-use crate::lod::fast_mesh::{CameraView, HierarchyError, ViewError};
+use crate::lod::fast_mesh::HierarchyError;
 use crate::lod::geometry_cache::{EvictionPolicy, GeometryCacheError};
+use crate::lod::{CameraView, ViewError};
 use crate::operations::losses;
 
 /// How a mesh is walked around.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::geometry::Ball;
 use crate::geometry::double::{add, scaled};
-use crate::lod::fast_mesh::Camera;
+use crate::lod::Camera;
 
 /// Where the eye is in each frame of a walk.
 ///

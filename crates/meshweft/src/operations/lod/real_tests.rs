@@ -4,7 +4,8 @@ use crate::files::Document;
 use crate::geometry::Ball;
 use crate::limits::Limits;
 use crate::lod::fast_mesh::tests::{active, closure, failing};
-use crate::lod::fast_mesh::{Camera, CameraView, FastMesh, Front};
+use crate::lod::fast_mesh::{FastMesh, Front};
+use crate::lod::{Camera, CameraView};
 use crate::mesh::Mesh;
 use crate::random::{SplitMix64, from_environment};
 

@@ -8,7 +8,8 @@ use super::options::{LodError, LodWalkOptions};
 use super::report::{LodWalkReport, WalkOptimum, WalkedMesh};
 use crate::files::Document;
 use crate::index::index32;
-use crate::lod::fast_mesh::{CameraView, FrameBudget, Front, FrontChanges};
+use crate::lod::CameraView;
+use crate::lod::fast_mesh::{FrameBudget, Front, FrontChanges};
 use crate::lod::geometry_cache::{
     EvictionPolicy, FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
 };

@@ -14,7 +14,8 @@ use super::verify_report::{LodVerifyReport, VerifiedFrame};
 use crate::geometry::double::{cross, dot, scaled, sub, widened};
 use crate::geometry::{Ball, Surface, vertex_normals};
 use crate::index::index32;
-use crate::lod::fast_mesh::{Camera, Front};
+use crate::lod::Camera;
+use crate::lod::fast_mesh::Front;
 use crate::parallel;
 use crate::progress::{PartOfWork, Progress};
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::options::{LodWalkOptions, WalkOptionError};
 use super::paths::CameraPath;
 use crate::geometry::Ball;
-use crate::lod::fast_mesh::Camera;
+use crate::lod::Camera;
 
 /// How what is drawn is measured.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,7 +15,8 @@ use super::verify_report::LodVerifyReport;
 use super::walk_tests::{from_obj, hills};
 use crate::files::Document;
 use crate::limits::Limits;
-use crate::lod::fast_mesh::{Camera, FastMesh, Front};
+use crate::lod::Camera;
+use crate::lod::fast_mesh::{FastMesh, Front};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 

@@ -8,7 +8,7 @@ use super::options::{LodError, LodWalkOptions};
 use super::report::{LodWalkReport, WalkOptimum, WalkedMesh};
 use super::source::LodSource;
 use crate::index::{BLOCK, index32};
-use crate::lod::fast_mesh::CameraView;
+use crate::lod::CameraView;
 use crate::lod::geometry_cache::{
     FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
 };

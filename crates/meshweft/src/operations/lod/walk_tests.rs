@@ -344,7 +344,7 @@ fn what_cannot_be_walked_around_is_told() {
     let document = hills();
     let loaded = LoadedFront::new((&document).into(), &()).unwrap();
     let camera = CameraPath::Circle.camera(loaded.ball, 0, 9, [9, 9]);
-    let blind = crate::lod::fast_mesh::Camera {
+    let blind = crate::lod::Camera {
         target: camera.eye,
         ..camera
     };

@@ -153,7 +153,8 @@ impl CameraView {
     ///
     /// ```
     /// use meshweft::Mesh;
-    /// use meshweft::lod::fast_mesh::{CameraView, FastMesh, Front};
+    /// use meshweft::lod::CameraView;
+    /// use meshweft::lod::fast_mesh::{FastMesh, Front};
     /// // Waves over a square of 8 by 8 cells.
     /// let place = |i: u16| [i % 9, i / 9].map(f32::from);
     /// let positions = (0..81).map(place).map(|[x, y]| [x, y, x.sin() * y.cos()]);
