@@ -6,9 +6,8 @@ use std::io::Cursor;
 
 use libfuzzer_sys::fuzz_target;
 use meshweft::Limits;
-use meshweft::lod::fast_mesh::{
-    FrameBudget, Front, HierarchyError, StreamedFront, VertexHierarchy,
-};
+use meshweft::lod::HierarchyError;
+use meshweft::lod::fast_mesh::{FrameBudget, Front, StreamedFront, VertexHierarchy};
 use meshweft::lod::{Camera, CameraView};
 
 #[path = "../../compare/src/counting.rs"]

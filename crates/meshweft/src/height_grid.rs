@@ -168,6 +168,16 @@ impl HeightGrid {
         horizontal(self.size, self.spacing, column, row)
     }
 
+    /// The lowest and the highest height; `None` if all places are void.
+    #[must_use]
+    pub fn height_range(&self) -> Option<[f32; 2]> {
+        let heights = self.heights.iter().copied().filter(|it| !it.is_nan());
+        heights.fold(None, |range, height| match range {
+            None => Some([height; 2]),
+            Some([low, high]) => Some([height.min(low), height.max(high)]),
+        })
+    }
+
     /// How many places are void.
     #[must_use]
     pub fn void_count(&self) -> usize {

@@ -277,11 +277,7 @@ fn what_cannot_be_extracted_is_told() {
             1,
             "damaged.mwl: byte ",
         ),
-        (
-            &[&["damaged.mwl"], &all[..]].concat(),
-            1,
-            "build it again from the mesh with `meshweft lod build`",
-        ),
+        (&[&["damaged.mwl"], &all[..]].concat(), 1, "build it again"),
         (&[&["cut.mwl"], &all[..]].concat(), 1, "cut.mwl: byte "),
         (&[&["gone.mwl"], &all[..]].concat(), 1, "gone.mwl"),
         (

@@ -30,6 +30,8 @@ pub enum DecodeErrorKind {
     NoArchive,
     /// It does not begin as a vertex hierarchy does.
     NoHierarchy,
+    /// It does not begin as a terrain does.
+    NoTerrain,
     /// It is not such a stream, or was written by a later version.
     Unknown {
         /// What is not known.
@@ -92,6 +94,10 @@ impl fmt::Display for DecodeError {
             DecodeErrorKind::NoHierarchy => write!(
                 f,
                 "this is not a .mwl file. Give one that was written by lod build"
+            ),
+            DecodeErrorKind::NoTerrain => write!(
+                f,
+                "this is not a .mwt file. Give one that was written by terrain build"
             ),
             DecodeErrorKind::Unknown { what, found } => write!(
                 f,

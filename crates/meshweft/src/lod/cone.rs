@@ -155,17 +155,13 @@ impl PackedCone {
 
     /// The cone's numbers, for many tests.
     pub(super) fn unpacked(self) -> Cone {
-        let all = Cone {
-            axis: [0.0; 3],
-            cosine: 0.0,
-            sine: 2.0,
-        };
         #[expect(clippy::cast_possible_truncation, reason = "the room is larger")]
-        self.parts().map_or(all, |(axis, [cosine, sine])| Cone {
-            axis: axis.map(|x| x as f32),
-            cosine: cosine as f32,
-            sine: sine as f32,
-        })
+        self.parts()
+            .map_or(Cone::ALL, |(axis, [cosine, sine])| Cone {
+                axis: axis.map(|x| x as f32),
+                cosine: cosine as f32,
+                sine: sine as f32,
+            })
     }
 
     pub(super) fn to_bits(self) -> u32 {
@@ -179,6 +175,13 @@ impl PackedCone {
 }
 
 impl Cone {
+    /// All directions.
+    pub(super) const ALL: Self = Self {
+        axis: [0.0; 3],
+        cosine: 0.0,
+        sine: 2.0,
+    };
+
     /// Whether no face with its normal in the cone and a corner within `radius` of a point can be seen as a front face from
     /// an eye; `way` goes from the eye to the point.
     #[inline]

@@ -74,6 +74,16 @@ pub(super) struct DetailBound {
 }
 
 impl DetailBound {
+    /// A ball seen from all sides.
+    pub(super) fn of_ball(center: [f32; 3], radius: f32, error: f32) -> Self {
+        Self {
+            center,
+            radius,
+            error,
+            cone: Cone::ALL,
+        }
+    }
+
     /// Whether another one is the same, bit for bit: numbers that are not finite are the same as themselves.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         let bits = |it: &Self| {

@@ -32,7 +32,6 @@ mod changes;
 mod deviation;
 #[cfg(test)]
 mod errors_above_tests;
-mod fields;
 mod front;
 mod full_detail;
 mod hierarchy;
@@ -66,4 +65,4 @@ pub use build::FastMesh;
 pub use changes::FrontChanges;
 pub use front::Front;
 pub use hierarchy::VertexHierarchy;
-pub use streamed::{HierarchyError, StreamedFront};
+pub use streamed::StreamedFront;

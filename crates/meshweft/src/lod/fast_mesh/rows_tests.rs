@@ -4,9 +4,10 @@ use std::io::Cursor;
 
 use super::stored::reseal;
 use super::tests::{camera, examples};
-use super::{FastMesh, HierarchyError, StreamedFront, VertexHierarchy};
+use super::{FastMesh, StreamedFront, VertexHierarchy};
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use crate::limits::Limits;
+use crate::lod::HierarchyError;
 use crate::mesh::Mesh;
 use crate::random::{SplitMix64, from_environment};
 

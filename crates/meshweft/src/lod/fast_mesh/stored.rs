@@ -14,7 +14,6 @@
 
 use std::ops::Range;
 
-use super::fields::{FieldReader, is_sealed, put_difference, put_f32s};
 use super::full_detail::FullDetail;
 use super::hierarchy::{HierarchyNode, VertexHierarchy};
 use super::missing::{BLOCK_POINTS, MissingBlocks};
@@ -24,13 +23,16 @@ use crate::attribute::AttributeInfo;
 use crate::bits::{DecodeError, DecodeErrorKind, crc32, varint};
 use crate::index::index32;
 use crate::limits::Limits;
+use crate::lod::block_file::{FRONT_BYTES, Signature};
 use crate::lod::cone::PackedCone;
+use crate::lod::fields::{FieldReader, is_sealed, put_difference, put_f32s};
 use crate::topology::half_edges::{HalfEdge, HalfEdges, NONE};
 
-pub(super) const MAGIC: [u8; 4] = *b"MWLD";
-const VERSION: u8 = 1;
-/// Magic, version, length and checksum of the head.
-pub(super) const FRONT_BYTES: usize = 13;
+pub(super) const SIGNATURE: Signature = Signature {
+    magic: *b"MWLD",
+    version: 1,
+    otherwise: DecodeErrorKind::NoHierarchy,
+};
 /// A point takes more bytes than this in its block.
 const LEAST_BYTES: u64 = 28;
 
@@ -110,11 +112,7 @@ impl VertexHierarchy {
         }
         stored_rows::write(&mut head, &self.rows.layouts, &self.name);
 
-        let mut bytes = MAGIC.to_vec();
-        bytes.push(VERSION);
-        bytes.extend(index32(head.len()).to_le_bytes());
-        bytes.extend(crc32(&head).to_le_bytes());
-        bytes.extend(head);
+        let mut bytes = SIGNATURE.with_head(&head);
         for block in blocks {
             bytes.extend(block);
         }
@@ -184,35 +182,12 @@ impl VertexHierarchy {
 }
 
 impl Head {
-    /// How long the head is, by the bytes before it, and its checksum.
-    pub(super) fn length(front: &[u8; FRONT_BYTES]) -> Result<(usize, u32), DecodeError> {
-        let mut reader = FieldReader::new(front, 0);
-        if reader.bytes()? != MAGIC {
-            let kind = DecodeErrorKind::NoHierarchy;
-            return Err(DecodeError { byte: 0, kind });
-        }
-        let [version] = reader.bytes()?;
-        if version != VERSION {
-            let (what, found) = ("version", version.into());
-            return Err(DecodeError {
-                byte: MAGIC.len(),
-                kind: DecodeErrorKind::Unknown { what, found },
-            });
-        }
-        let length = u32::from_le_bytes(reader.bytes()?) as usize;
-        Ok((length, u32::from_le_bytes(reader.bytes()?)))
-    }
-
     /// The head of a file of this length from its bytes.
     pub(super) fn from_bytes(
         bytes: &[u8],
-        checksum: u32,
         file_length: u64,
         limits: Limits,
     ) -> Result<Self, DecodeError> {
-        if !is_sealed(bytes, checksum) {
-            return Err(DecodeError::damaged(FRONT_BYTES));
-        }
         let mut reader = FieldReader::new(bytes, FRONT_BYTES);
         let most = u32::try_from(limits.vertices)
             .unwrap_or(u32::MAX)
@@ -448,7 +423,7 @@ pub(crate) fn reseal(bytes: &mut [u8]) {
     let Some((front, rest)) = bytes.split_first_chunk_mut::<FRONT_BYTES>() else {
         return;
     };
-    let Ok((length, _)) = Head::length(front) else {
+    let Ok((length, _)) = SIGNATURE.head_length(front) else {
         return;
     };
     let Some((head, mut blocks)) = rest.split_at_mut_checked(length) else {

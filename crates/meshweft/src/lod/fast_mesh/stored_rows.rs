@@ -11,11 +11,11 @@
 
 use std::ops::Range;
 
-use super::fields::FieldReader;
 use super::hierarchy::VertexHierarchy;
 use super::rows::{are_different, is_of_rows};
 use crate::attribute::{AttributeInfo, ComponentType, Domain, Semantic};
 use crate::bits::{DecodeError, varint};
+use crate::lod::fields::FieldReader;
 
 impl VertexHierarchy {
     /// The rows of the vertices of some points.

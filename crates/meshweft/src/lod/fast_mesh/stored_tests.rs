@@ -4,10 +4,11 @@ use std::io::Cursor;
 
 use super::full_detail::FullDetail;
 use super::tests::{camera, examples};
-use super::{FastMesh, FrameBudget, Front, HierarchyError, StreamedFront, VertexHierarchy};
+use super::{FastMesh, FrameBudget, Front, StreamedFront, VertexHierarchy};
 use crate::geometry::Ball;
 use crate::limits::Limits;
 use crate::lod::Camera;
+use crate::lod::HierarchyError;
 use crate::mesh::Mesh;
 use crate::random::{SplitMix64, from_environment};
 

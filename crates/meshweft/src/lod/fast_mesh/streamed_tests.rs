@@ -24,7 +24,7 @@ fn errors_say_what_and_where() {
     assert_eq!(
         changed(4, 9),
         "byte 4: version 9 is not known. A later version of meshweft may have written the file: update meshweft. \
-         Otherwise copy it again, or build it again from the mesh with `meshweft lod build`"
+         Otherwise copy it again, or build it again"
     );
     for (found, expected) in [
         (

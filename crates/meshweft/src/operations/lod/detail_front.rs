@@ -9,7 +9,8 @@ use crate::bits::DecodeError;
 use crate::files::{Document, Note};
 use crate::geometry::Ball;
 use crate::lod::CameraView;
-use crate::lod::fast_mesh::{Front, HierarchyError};
+use crate::lod::HierarchyError;
+use crate::lod::fast_mesh::Front;
 use crate::lod::geometry_cache::IndexSlotsError;
 use crate::progress::{PartOfWork, Progress};
 

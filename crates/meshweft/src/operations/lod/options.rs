@@ -9,7 +9,7 @@ use crate::attribute::AttributeInfo;
 use crate::error::MeshError;
 use crate::files::FileError;
 use crate::geometry::Ball;
-use crate::lod::fast_mesh::HierarchyError;
+use crate::lod::HierarchyError;
 use crate::lod::geometry_cache::{EvictionPolicy, GeometryCacheError};
 use crate::lod::{CameraView, ViewError};
 use crate::operations::losses;

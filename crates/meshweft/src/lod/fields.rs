@@ -1,4 +1,4 @@
-//! The fields of a `.mwl` file, one after the other.
+//! The fields of files of blocks, one after the other.
 
 use std::ops::Range;
 
@@ -89,6 +89,10 @@ impl<'a> FieldReader<'a> {
             *number = f32::from_le_bytes(self.bytes()?);
         }
         Ok(numbers)
+    }
+
+    pub(super) fn f64(&mut self) -> Result<f64, DecodeError> {
+        Ok(f64::from_le_bytes(self.bytes()?))
     }
 
     /// A number that is not below 0; it may be infinite.

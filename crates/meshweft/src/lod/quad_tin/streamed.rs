@@ -1,0 +1,141 @@
+//! A terrain in a file of which only what is needed is read.
+
+use std::io::{Read, Seek};
+
+use super::descent::TinSurface;
+use super::grid::GridTin;
+use super::hierarchy::QuadTin;
+use super::limited::TinLimit;
+use super::stored::{SIGNATURE, StoredHead, TinBlock};
+use crate::limits::Limits;
+use crate::lod::block_file::BlockFile;
+use crate::lod::hierarchy_error::HierarchyError;
+use crate::lod::view::CameraView;
+
+/// A [`QuadTin`] of a `.mwt` file: vertices are read in blocks when a surface needs one of them.
+#[derive(Debug)]
+pub struct StreamedTin<S> {
+    tin: QuadTin,
+    name: String,
+    file: BlockFile<S>,
+    blocks: Vec<TinBlock>,
+}
+
+impl<S: Read + Seek> StreamedTin<S> {
+    /// The coarsest surface of a file.
+    ///
+    /// # Errors
+    /// [`HierarchyError`] if the file cannot be read, is not a terrain, or is damaged.
+    pub fn open(source: S, limits: Limits) -> Result<Self, HierarchyError> {
+        let (file, head) = BlockFile::open(source, &SIGNATURE)?;
+        let StoredHead {
+            tin: grid,
+            extent,
+            name,
+            blocks,
+        } = GridTin::from_head(&head, file.length(), limits)?;
+        let last = blocks.len() - 1;
+        let mut streamed = Self {
+            tin: QuadTin { grid, extent },
+            name,
+            file,
+            blocks,
+        };
+        // The corners, at which nothing is cut.
+        streamed.read(last)?;
+        Ok(streamed)
+    }
+
+    /// What was read so far.
+    #[must_use]
+    pub fn tin(&self) -> &QuadTin {
+        &self.tin
+    }
+
+    /// How many bytes the file has, and how many were read.
+    #[must_use]
+    pub fn bytes(&self) -> [u64; 2] {
+        self.file.bytes()
+    }
+
+    /// What the terrain is called.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// As [`QuadTin::draw`].
+    ///
+    /// # Errors
+    /// [`HierarchyError`] if a block cannot be read; the surface has holes then.
+    pub fn draw(
+        &mut self,
+        view: &CameraView,
+        surface: &mut TinSurface,
+    ) -> Result<(), HierarchyError> {
+        self.draw_by(surface, |tin, surface| tin.draw(view, surface))
+    }
+
+    /// As [`QuadTin::draw_within`].
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw).
+    pub fn draw_within(
+        &mut self,
+        limit: TinLimit,
+        view: &CameraView,
+        surface: &mut TinSurface,
+    ) -> Result<(), HierarchyError> {
+        self.draw_by(surface, |tin, surface| {
+            tin.draw_within(limit, view, surface)
+        })
+    }
+
+    /// Draws until nothing is missing: each time a level deeper, or all.
+    fn draw_by(
+        &mut self,
+        surface: &mut TinSurface,
+        draw: impl Fn(&QuadTin, &mut TinSurface),
+    ) -> Result<(), HierarchyError> {
+        loop {
+            draw(&self.tin, surface);
+            if surface.missing.is_empty() {
+                return Ok(());
+            }
+            let mut missing = std::mem::take(&mut surface.missing);
+            missing.sort_unstable();
+            missing.dedup();
+            for block in missing {
+                self.read(block)?;
+            }
+        }
+    }
+
+    /// Reads all that was not read yet.
+    ///
+    /// # Errors
+    /// [`HierarchyError`] if a block cannot be read.
+    pub fn into_tin(mut self) -> Result<QuadTin, HierarchyError> {
+        for block in 0..self.blocks.len() {
+            if self.tin.grid.nodes[block].is_none() {
+                self.read(block)?;
+            }
+        }
+        Ok(self.tin)
+    }
+
+    fn read(&mut self, block: usize) -> Result<(), HierarchyError> {
+        let entry = self.blocks[block];
+        let bytes = self.file.read(block, entry.offset, entry.length)?;
+        self.tin.grid.read_block(block, entry, bytes)?;
+        Ok(())
+    }
+}
+
+impl QuadTin {
+    /// Whether bytes begin as those of a `.mwt` file do.
+    #[must_use]
+    pub fn begins_bytes(start: &[u8]) -> bool {
+        start.starts_with(&SIGNATURE.magic)
+    }
+}
