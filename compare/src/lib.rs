@@ -15,6 +15,7 @@ pub mod clusters;
 #[cfg(feature = "draco")]
 pub mod codecs;
 pub mod counting;
+pub mod eviction;
 pub mod oracle;
 pub mod process;
 pub mod rivals;

@@ -1,4 +1,27 @@
-//! Terrain: a restricted quadtree over a grid of heights or over points.
+//! Terrain: right triangles that are halved, over a grid of heights.
+//!
+//! Renato Pajarola, Marc Antonijuan, Roberto Lario: *QuadTIN: Quadtree based Triangulated Irregular Networks*, IEEE Visualization 2002,
+//! and the second half of Roberto Lario, Renato Pajarola, Francisco Tirado: *Cached Geometry Manager for View-dependent LOD
+//! Rendering*, WSCG 2005.
+//!
+//! A square is cut into two right triangles, and each triangle again from its right angle to the middle of the side opposite. Two
+//! triangles have that side in common, a *diamond*: they are cut together, at one vertex. So a vertex has at most two others above it,
+//! those at which its two triangles began. A [`QuadTin`] knows of each vertex an *error*, how far heights below its diamond are from
+//! the surface without it, and a *ball* with all of them. Both contain those of the vertices below. So a view that needs a vertex
+//! needs those above it, each triangle is decided by itself on one way down, and there are no cracks: no list of what depends on
+//! what, nothing from the last frame. The way goes along a Sierpiński curve, so the faces come as one strip.
+//!
+//! # Where the papers leave room
+//! - **Errors.** The largest vertical distance of any height to the triangle that covers it, by going over all of them, not only of the
+//!   middle of the side: what is drawn at a tolerance is that near, everywhere. Rounding of positions is counted.
+//! - **Sizes and holes.** A grid of any size lies in a square of 2^k + 1; what lies beyond is void, as holes are. A diamond that is
+//!   partly void is always cut, so borders are exact, and no face crosses one. Sides of m 2^j + 1 places with a large j are
+//!   drawn with few faces; those of 2^k places have single cells along two borders.
+//! - **Storage.** Of a grid only heights, errors and radii are kept, eight bytes a vertex; which triangles there are follows from
+//!   columns and rows. A `.mwt` file has them in blocks of a level and a part of the grid (`stored`), and a [`StreamedTin`] reads
+//!   those that a surface needs.
+//!
+//! Read `triangle` and `grid_square` first; then `grid_build`, how errors come about, and `descent`.
 
 mod descent;
 mod extent;
