@@ -22,7 +22,7 @@ pub struct Camera {
 }
 
 /// What of a mesh has to be drawn exactly: made of a [`Camera`], or of a length alone, for
-/// [`Front::update`](super::Front::update).
+/// [`Front::update`](super::fast_mesh::Front::update).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraView {
     eye: [f64; 3],

@@ -165,9 +165,10 @@ impl BisectionTree for GridTin {
         self.blocks.square.halves(triangle)
     }
 
+    #[inline]
     fn detail(&self, triangle: &TinTriangle) -> Detail {
         let square = &self.blocks.square;
-        if square.is_outside(triangle) {
+        if !square.is_inside(triangle) && square.is_outside(triangle) {
             return Detail::Outside;
         }
         if triangle.split == NONE {

@@ -47,11 +47,13 @@ impl GridSquare {
         self.cells.trailing_zeros()
     }
 
+    #[inline]
     pub(super) fn level(&self, [column, row]: [u32; 2]) -> u32 {
         (column | row).trailing_zeros().min(self.levels())
     }
 
     /// Whether a vertex is one of the grid's.
+    #[inline]
     pub(super) fn has(&self, vertex: u32) -> bool {
         let [column, row] = place(vertex);
         column < self.size[0] && row < self.size[1]
@@ -68,6 +70,7 @@ impl GridSquare {
     }
 
     /// Whether a triangle is in the grid's rectangle.
+    #[inline]
     pub(super) fn is_inside(&self, triangle: &TinTriangle) -> bool {
         [triangle.apex, triangle.left, triangle.right]
             .iter()
@@ -98,6 +101,7 @@ impl GridSquare {
         }
     }
 
+    #[inline]
     pub(super) fn halves(&self, triangle: &TinTriangle) -> [TinTriangle; 2] {
         let TinTriangle {
             apex,
