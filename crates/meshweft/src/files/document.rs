@@ -456,7 +456,7 @@ impl Document {
 }
 
 /// The error for a plain file whose name ends in `.gz`.
-fn not_compressed() -> FileErrorKind {
+pub(super) fn not_compressed() -> FileErrorKind {
     let problem =
         "its name ends in .gz, but what is in it is not compressed: remove .gz from the name";
     FileErrorKind::unsupported(problem)

@@ -16,6 +16,7 @@
 //! | what a file holds that is in no mesh and no attribute | `unlisted`, and one of each format |
 //! | what a file is, by its name and by its bytes | [`Format`], `signature` |
 //! | where bytes come from | `disk`, `surroundings` |
+//! | grids of heights, which are read and not changed | `height_map` (feature `height-maps`) |
 //! | where they go, and why nothing is lost on the way | `write`, `placing`, `companions`, `links`, `locks`, `disk` |
 
 mod bonds;
@@ -33,6 +34,8 @@ mod error;
 mod face_records;
 mod format;
 mod gltf;
+#[cfg(feature = "height-maps")]
+pub mod height_map;
 mod links;
 mod locks;
 mod new_mesh;
