@@ -1,4 +1,4 @@
-//! Terrain: right triangles that are halved, over a grid of heights.
+//! Terrain: right triangles that are halved, over a grid of heights or over points at any places.
 //!
 //! Renato Pajarola, Marc Antonijuan, Roberto Lario: *QuadTIN: Quadtree based Triangulated Irregular Networks*, IEEE Visualization 2002,
 //! and the second half of Roberto Lario, Renato Pajarola, Francisco Tirado: *Cached Geometry Manager for View-dependent LOD
@@ -17,6 +17,7 @@
 //! - **Sizes and holes.** A grid of any size lies in a square of 2^k + 1; what lies beyond is void, as holes are. A diamond that is
 //!   partly void is always cut, so borders are exact, and no face crosses one. Sides of m 2^j + 1 places with a large j are
 //!   drawn with few faces; those of 2^k places have single cells along two borders.
+//! - **Points.** A [`PointHierarchy`] is over points that are no grid: what is cut where, see `points`.
 //! - **Storage.** Of a grid only heights, errors and radii are kept, eight bytes a vertex; which triangles there are follows from
 //!   columns and rows. A `.mwt` file has them in blocks of a level and a part of the grid (`stored`), and a [`StreamedTin`] reads
 //!   those that a surface needs.
@@ -31,7 +32,23 @@ mod grid_square;
 mod hierarchy;
 mod limited;
 mod plane;
+mod point_bounds;
+mod point_build;
+mod point_diamond;
+mod point_distance;
+mod point_draw;
+#[cfg(test)]
+mod point_hostile_tests;
+mod point_input;
+mod point_lists;
+mod point_places;
+#[cfg(test)]
+mod point_sets;
+#[cfg(test)]
+mod point_tests;
+mod points;
 mod rounded;
+mod signs;
 mod stored;
 #[cfg(test)]
 mod stored_tests;
@@ -44,4 +61,6 @@ mod triangle;
 pub use descent::TinSurface;
 pub use hierarchy::{QuadTin, QuadTinError};
 pub use limited::TinLimit;
+pub use point_input::{PointCounts, PointsError};
+pub use points::PointHierarchy;
 pub use streamed::StreamedTin;
