@@ -32,6 +32,9 @@ impl TinSurface {
     }
 }
 
+/// How often a triangle is halved at most, more than in any hierarchy that is built.
+const MOST_DEPTH: u32 = 300;
+
 /// Draws what is needed.
 pub(super) struct Descent<'a, T, N> {
     pub(super) tree: &'a T,
@@ -44,13 +47,18 @@ impl<T: BisectionTree, N: FnMut(u32, &NodeBound) -> bool> Descent<'_, T, N> {
     pub(super) fn run(&mut self) {
         self.surface.clear();
         for root in self.tree.roots() {
-            self.visit(&root, false);
+            self.visit(&root, 0);
         }
     }
 
-    /// Draws a triangle along the curve from its left corner to its right one, or back.
-    fn visit(&mut self, triangle: &TinTriangle, is_back: bool) {
-        let is_cut = match self.tree.detail(triangle) {
+    /// Draws a triangle along the curve from its left corner to its right one, or back at odd depths.
+    fn visit(&mut self, triangle: &TinTriangle, depth: u32) {
+        // Only a file that someone made up goes deeper.
+        let detail = match depth < MOST_DEPTH {
+            true => self.tree.detail(triangle),
+            false => Detail::Finest,
+        };
+        let is_cut = match detail {
             Detail::Outside => return,
             Detail::Crossing => true,
             Detail::Finest => {
@@ -74,12 +82,12 @@ impl<T: BisectionTree, N: FnMut(u32, &NodeBound) -> bool> Descent<'_, T, N> {
         };
         if is_cut {
             let [first, second] = self.tree.halves(triangle);
-            let [first, second] = match is_back {
-                false => [first, second],
-                true => [second, first],
+            let [first, second] = match depth % 2 {
+                0 => [first, second],
+                _ => [second, first],
             };
-            self.visit(&first, !is_back);
-            self.visit(&second, !is_back);
+            self.visit(&first, depth + 1);
+            self.visit(&second, depth + 1);
         }
     }
 

@@ -143,6 +143,11 @@ impl GridTin {
         self.raised(place, height)
     }
 
+    /// The place with a number.
+    pub(super) fn place(&self, number: u32) -> [u32; 2] {
+        grid_square::place(self.blocks.square.vertex_of(number))
+    }
+
     fn raised(&self, place: [u32; 2], height: f32) -> [f32; 3] {
         let [x, z] = horizontal(self.blocks.square.size, self.spacing, place[0], place[1]);
         let height = if height.is_nan() { 0.0 } else { height };

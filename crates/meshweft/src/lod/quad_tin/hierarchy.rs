@@ -3,11 +3,13 @@
 use std::fmt;
 use std::io::{self, Write};
 
-use super::descent::{Descent, TinSurface};
+use super::descent::TinSurface;
 use super::extent::TinExtent;
 use super::grid::GridTin;
-use super::grid_square;
-use super::limited::{TinLimit, draw_within};
+use super::limited::TinLimit;
+use super::points::{CORNERS, PointHierarchy};
+use super::stored_grid::MOST_PLACES;
+use super::tree::TinTree;
 use super::triangle::NodeBound;
 use crate::height_grid::HeightGrid;
 use crate::lod::view::{CameraView, DetailBound};
@@ -32,12 +34,9 @@ use crate::lod::view::{CameraView, DetailBound};
 /// ```
 #[derive(Debug, Clone)]
 pub struct QuadTin {
-    pub(super) grid: GridTin,
+    pub(super) tree: TinTree,
     pub(super) extent: TinExtent,
 }
-
-/// Most vertices: four faces begin at each, and have numbers.
-pub(super) const MOST_VERTICES: usize = 1 << 30;
 
 /// Why there is no hierarchy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,33 +68,44 @@ impl QuadTin {
     /// # Complexity
     /// Time O(n log n) for n places; memory 8 bytes a place.
     pub fn over_grid(grid: &HeightGrid) -> Result<Self, QuadTinError> {
-        if grid.heights().len() > MOST_VERTICES {
+        if grid.heights().len() > MOST_PLACES {
             return Err(QuadTinError::TooLarge);
         }
         let extent = TinExtent::of(grid).ok_or(QuadTinError::Empty)?;
         Ok(Self {
-            grid: GridTin::over(grid),
+            tree: TinTree::Grid(GridTin::over(grid)),
             extent,
         })
     }
 
-    /// How many vertices there are at full detail.
+    /// How many vertices there are at full detail, with void ones.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
-        let [columns, rows] = self.grid.blocks.square.size;
-        columns as usize * rows as usize
+        self.tree.vertex_count()
     }
 
     /// Where a vertex is: x east, y up, z south. y is 0 where it is void or was not read.
+    ///
+    /// # Panics
+    /// If there is no such vertex.
     #[must_use]
     pub fn position(&self, vertex: u32) -> [f32; 3] {
-        self.grid.position(self.place(vertex))
+        match &self.tree {
+            TinTree::Grid(grid) => grid.position(grid.place(vertex)),
+            TinTree::Points(points) => points.position(vertex),
+        }
     }
 
     /// The error that keeps a vertex in the surface, if it is above it; infinite where it is always drawn.
+    ///
+    /// # Panics
+    /// If there is no such vertex.
     #[must_use]
     pub fn error(&self, vertex: u32) -> f32 {
-        self.grid.error(self.place(vertex))
+        match &self.tree {
+            TinTree::Grid(grid) => grid.error(grid.place(vertex)),
+            TinTree::Points(points) => points.error(vertex),
+        }
     }
 
     /// How many faces there are at full detail.
@@ -110,16 +120,36 @@ impl QuadTin {
         self.extent.heights
     }
 
-    /// Columns and rows.
+    /// Columns and rows; `None` if it is not over a grid.
     #[must_use]
-    pub fn size(&self) -> [u32; 2] {
-        self.grid.blocks.square.size
+    pub fn grid_size(&self) -> Option<[u32; 2]> {
+        match &self.tree {
+            TinTree::Grid(grid) => Some(grid.blocks.square.size),
+            TinTree::Points(_) => None,
+        }
     }
 
-    /// How far columns and rows are apart, in metres.
+    /// How far columns and rows are apart, in metres; `None` if it is not over a grid.
     #[must_use]
-    pub fn spacing(&self) -> [f64; 2] {
-        self.grid.spacing
+    pub fn grid_spacing(&self) -> Option<[f64; 2]> {
+        match &self.tree {
+            TinTree::Grid(grid) => Some(grid.spacing),
+            TinTree::Points(_) => None,
+        }
+    }
+
+    /// The smallest and the largest x, and those of z.
+    #[must_use]
+    pub fn horizontal_range(&self) -> [[f32; 2]; 2] {
+        let [[west, _, north], [east, _, south]] = match &self.tree {
+            TinTree::Grid(grid) => {
+                let last = grid.blocks.square.size.map(|it| it - 1);
+                [[0, 0], last].map(|place| grid.position(place))
+            }
+            // The first and the last of the corners.
+            TinTree::Points(points) => [0, CORNERS - 1].map(|it| points.position(it)),
+        };
+        [[west, east], [north, south]]
     }
 
     /// Writes it as a `.mwt` file, with a name.
@@ -127,11 +157,7 @@ impl QuadTin {
     /// # Errors
     /// What the sink says.
     pub fn write(&self, name: &str, sink: &mut dyn Write) -> io::Result<()> {
-        self.grid.write(self.extent, name, sink)
-    }
-
-    fn place(&self, vertex: u32) -> [u32; 2] {
-        grid_square::place(self.grid.blocks.square.vertex_of(vertex))
+        self.tree.write(self.extent, name, sink)
     }
 
     /// The coarsest surface that a view does not need finer. It has no cracks, whatever the view.
@@ -139,13 +165,7 @@ impl QuadTin {
     /// # Complexity
     /// Time and space O(faces).
     pub fn draw(&self, view: &CameraView, surface: &mut TinSurface) {
-        let needs = |_, bound: &NodeBound| view.needs(&bound.detail());
-        Descent {
-            tree: &self.grid,
-            needs,
-            surface,
-        }
-        .run();
+        self.tree.draw(view, surface);
     }
 
     /// The surface of limited size that a view needs most: what it sees worst is cut first.
@@ -155,7 +175,16 @@ impl QuadTin {
     /// # Complexity
     /// Time O(n log n), space O(n) for n faces.
     pub fn draw_within(&self, limit: TinLimit, view: &CameraView, surface: &mut TinSurface) {
-        draw_within(&self.grid, view, limit, surface);
+        self.tree.draw_within(limit, view, surface);
+    }
+}
+
+impl From<PointHierarchy> for QuadTin {
+    fn from(points: PointHierarchy) -> Self {
+        Self {
+            extent: points.extent(),
+            tree: TinTree::Points(points),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::point_distance::FacePlane;
 use super::point_input::{CheckedPoints, MOST_VERTICES, PointCounts, PointsError};
 use super::point_lists::{ListRange, ListedPoint, PointLists};
 use super::point_places::NumberSpacing;
-use super::points::{PointHierarchy, PointNode, ROOTS};
+use super::points::{PointHierarchy, PointNode, ROOTS, UnreadPoints};
 use super::rounded::rounded_up;
 use super::signs::turn;
 use super::triangle::NONE;
@@ -57,6 +57,7 @@ impl PointHierarchy {
             nodes,
             sources,
             counts,
+            unread: UnreadPoints::default(),
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Surfaces over points, as over a grid.
 
 use super::descent::{Descent, TinSurface};
+use super::extent::TinExtent;
 use super::limited::{TinLimit, draw_within};
 use super::point_input::PointCounts;
 use super::points::PointHierarchy;
@@ -12,6 +13,24 @@ impl PointHierarchy {
     #[must_use]
     pub fn counts(&self) -> &PointCounts {
         &self.counts
+    }
+
+    /// What it is in all.
+    pub(super) fn extent(&self) -> TinExtent {
+        let mut surface = TinSurface::default();
+        let needs = |_, _: &NodeBound| true;
+        Descent {
+            tree: self,
+            needs,
+            surface: &mut surface,
+        }
+        .run();
+        let heights = self.nodes.iter().map(|it| it.position[1]);
+        let range = [f32::INFINITY, f32::NEG_INFINITY];
+        TinExtent {
+            heights: heights.fold(range, |[low, high], it| [low.min(it), high.max(it)]),
+            faces: surface.faces.len() as u64,
+        }
     }
 
     /// How many vertices there are at full detail.

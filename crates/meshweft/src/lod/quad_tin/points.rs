@@ -32,6 +32,15 @@ pub(super) struct PointNode {
     pub(super) children: [u32; 4],
 }
 
+impl PointNode {
+    pub(super) const EMPTY: Self = Self {
+        position: [0.0; 3],
+        error: 0.0,
+        radius: 0.0,
+        children: [NONE; 4],
+    };
+}
+
 /// All levels of detail of a terrain over points at any places: a restricted quadtree whose vertices are the points.
 ///
 /// Each vertex knows how far any input point below it may be from the surface without it, vertically, and never less. Vertices that
@@ -61,7 +70,21 @@ pub struct PointHierarchy {
     /// The input point that each vertex is; [`NONE`] for a Steiner point.
     pub(super) sources: Vec<u32>,
     pub(super) counts: PointCounts,
+    /// What of a file was not read yet.
+    pub(super) unread: UnreadPoints,
 }
+
+/// Which vertices of a file were not read yet. Empty if all are there.
+#[derive(Debug, Clone, Default)]
+pub(super) struct UnreadPoints {
+    /// Of each block.
+    pub(super) blocks: Vec<bool>,
+    /// Of each side of each vertex, whether it is where a triangle is cut: no two are, or they would be cut without end.
+    pub(super) is_used: Vec<bool>,
+}
+
+/// How many vertices a block of a file has.
+pub(super) const BLOCK_VERTICES: usize = 512;
 
 /// How many corners the rectangle has.
 pub(super) const CORNERS: u32 = 4;
@@ -117,6 +140,10 @@ impl BisectionTree for PointHierarchy {
     fn detail(&self, triangle: &TinTriangle) -> Detail {
         if triangle.split == NONE {
             return Detail::Finest;
+        }
+        let block = triangle.split as usize / BLOCK_VERTICES;
+        if self.unread.blocks.get(block).is_some_and(|&it| it) {
+            return Detail::Missing(block);
         }
         let node = &self.nodes[triangle.split as usize];
         Detail::Inside(NodeBound {

@@ -4,7 +4,8 @@ use std::io::Cursor;
 
 use super::stored::SIGNATURE;
 use super::tests::hills;
-use super::{QuadTin, StreamedTin, TinLimit, TinSurface};
+use super::tree::TinTree;
+use super::{PointHierarchy, QuadTin, StreamedTin, TinLimit, TinSurface};
 use crate::bits::crc32;
 use crate::limits::Limits;
 use crate::lod::{Camera, CameraView, HierarchyError};
@@ -44,7 +45,8 @@ fn what_is_read_is_what_was_written_and_a_view_reads_a_part() {
 
         // The same surfaces, from as much of the file as is needed.
         let mut streamed = open(&stored).unwrap();
-        assert_eq!((streamed.name(), streamed.tin().size()), ("hills", size));
+        assert_eq!(streamed.name(), "hills");
+        assert_eq!(streamed.tin().grid_size(), Some(size));
         assert_eq!(streamed.tin().face_count(), tin.face_count());
         let mut surfaces = [TinSurface::default(), TinSurface::default()];
         let views = [1e6, 20.0, 3.0, 0.1, -1.0].map(|it| CameraView::of_errors_above(it).unwrap());
@@ -75,6 +77,56 @@ fn what_is_read_is_what_was_written_and_a_view_reads_a_part() {
     }
 }
 
+/// Points at random places, in steps of 1/16.
+fn scattered(count: usize, random: &mut SplitMix64) -> QuadTin {
+    let points: Vec<[f32; 3]> = (0..count)
+        .map(|_| [640, 80, 480].map(|most| random.below(most) as f32 / 16.0))
+        .collect();
+    PointHierarchy::over(&points).unwrap().into()
+}
+
+#[test]
+fn points_are_read_as_they_were_written() {
+    let mut random = SplitMix64(14);
+    for count in [3, 40, 700, 9000] {
+        let tin = scattered(count, &mut random);
+        let stored = bytes(&tin);
+        assert_eq!(bytes(&open(&stored).unwrap().into_tin().unwrap()), stored);
+        let mut streamed = open(&stored).unwrap();
+        assert_eq!(streamed.tin().grid_size(), None);
+        let mut surfaces = [TinSurface::default(), TinSurface::default()];
+        for length in [1e6, 4.0, 1.0, 0.1, -1.0] {
+            let view = CameraView::of_errors_above(length).unwrap();
+            tin.draw(&view, &mut surfaces[0]);
+            streamed.draw(&view, &mut surfaces[1]).unwrap();
+            assert_eq!(surfaces[0].faces(), surfaces[1].faces());
+            assert_eq!(surfaces[0].largest_error(), surfaces[1].largest_error());
+            for vertex in surfaces[0].faces().iter().flat_map(|it| it.1) {
+                assert_eq!(tin.position(vertex), streamed.tin().position(vertex));
+            }
+        }
+        assert_eq!(tin.face_count(), surfaces[0].faces().len() as u64);
+        assert_eq!(streamed.bytes(), [stored.len() as u64; 2]);
+        let mut coarse = open(&stored).unwrap();
+        let view = CameraView::of_errors_above(4.9).unwrap();
+        coarse.draw(&view, &mut surfaces[0]).unwrap();
+        assert!(count < 1000 || coarse.bytes()[1] < stored.len() as u64);
+    }
+}
+
+#[test]
+fn triangles_that_would_be_cut_without_end_are_damage() {
+    // All four triangles around each vertex are cut at the next one.
+    let mut tin = scattered(600, &mut SplitMix64(2));
+    if let TinTree::Points(points) = &mut tin.tree {
+        let count = u32::try_from(points.nodes.len()).unwrap();
+        for (node, child) in points.nodes.iter_mut().zip(1..count).skip(4) {
+            node.children = [2 * child, 2 * child, 2 * child + 1, 2 * child + 1];
+        }
+    }
+    assert!(open(&bytes(&tin)).is_err());
+}
+
 /// Uses a file as a walk does.
 fn use_all(bytes: &[u8]) -> Result<(), HierarchyError> {
     let mut streamed = open(bytes)?;
@@ -92,6 +144,8 @@ fn damage_is_an_error_or_some_terrain() {
     let mut random = SplitMix64(31);
     let files = [([5, 5], 0), ([30, 21], 3), ([65, 65], 0)]
         .map(|(size, voids)| bytes(&QuadTin::over_grid(&hills(size, voids, &mut random)).unwrap()));
+    let points = [9, 700].map(|count| bytes(&scattered(count, &mut random)));
+    let files = [&files[..], &points].concat();
     for file in &files {
         use_all(file).unwrap();
         for end in 0..file.len().min(400) {

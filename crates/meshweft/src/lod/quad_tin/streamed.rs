@@ -3,7 +3,6 @@
 use std::io::{Read, Seek};
 
 use super::descent::TinSurface;
-use super::grid::GridTin;
 use super::hierarchy::QuadTin;
 use super::limited::TinLimit;
 use super::stored::{SIGNATURE, StoredHead, TinBlock};
@@ -29,20 +28,19 @@ impl<S: Read + Seek> StreamedTin<S> {
     pub fn open(source: S, limits: Limits) -> Result<Self, HierarchyError> {
         let (file, head) = BlockFile::open(source, &SIGNATURE)?;
         let StoredHead {
-            tin: grid,
+            tree,
             extent,
             name,
             blocks,
-        } = GridTin::from_head(&head, file.length(), limits)?;
-        let last = blocks.len() - 1;
+        } = StoredHead::from_bytes(&head, file.length(), limits)?;
+        let corners = tree.corner_block();
         let mut streamed = Self {
-            tin: QuadTin { grid, extent },
+            tin: QuadTin { tree, extent },
             name,
             file,
             blocks,
         };
-        // The corners, at which nothing is cut.
-        streamed.read(last)?;
+        streamed.read(corners)?;
         Ok(streamed)
     }
 
@@ -117,7 +115,7 @@ impl<S: Read + Seek> StreamedTin<S> {
     /// [`HierarchyError`] if a block cannot be read.
     pub fn into_tin(mut self) -> Result<QuadTin, HierarchyError> {
         for block in 0..self.blocks.len() {
-            if self.tin.grid.nodes[block].is_none() {
+            if !self.tin.tree.has_block(block) {
                 self.read(block)?;
             }
         }
@@ -127,7 +125,7 @@ impl<S: Read + Seek> StreamedTin<S> {
     fn read(&mut self, block: usize) -> Result<(), HierarchyError> {
         let entry = self.blocks[block];
         let bytes = self.file.read(block, entry.offset, entry.length)?;
-        self.tin.grid.read_block(block, entry, bytes)?;
+        self.tin.tree.read_block(block, entry, bytes)?;
         Ok(())
     }
 }

@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::grid::GridTin;
 use super::grid_square::{GridSquare, place, vertex};
-use super::triangle::{BisectionTree, NONE, TinTriangle};
+use super::triangle::{NONE, TinTriangle};
 use super::{QuadTin, QuadTinError, TinLimit, TinSurface};
 use crate::height_grid::HeightGrid;
 use crate::index::index32;
@@ -98,7 +99,6 @@ fn camera(random: &mut SplitMix64, grid: &HeightGrid, tolerance: f64) -> CameraV
 
 /// All cells with four heights, as two faces each, or with three, as far as the finest triangles have them: area 1/2 each.
 fn finest_area(grid: &HeightGrid) -> usize {
-    let tin = QuadTin::over_grid(grid).unwrap();
     let square = GridSquare::new(grid.size());
     let mut triangles = square.roots().to_vec();
     let mut count = 0;
@@ -108,7 +108,7 @@ fn finest_area(grid: &HeightGrid) -> usize {
         }
         match triangle.split {
             NONE => count += usize::from(is_solid(grid, &triangle)),
-            _ => triangles.extend(tin.grid.halves(&triangle)),
+            _ => triangles.extend(square.halves(&triangle)),
         }
     }
     count
@@ -252,7 +252,7 @@ fn errors_and_balls_contain_those_below() {
     for size in sizes() {
         for voids in [0, 5] {
             let grid = hills(size, voids, &mut random);
-            let tin = QuadTin::over_grid(&grid).unwrap().grid;
+            let tin = GridTin::over(&grid);
             let square = GridSquare::new(size);
             for number in 0..size[0] * size[1] {
                 let below = square.vertex_of(number);
