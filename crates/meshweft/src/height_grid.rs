@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+mod voids;
+
 /// Heights above a regular grid, row by row; places without a height are *void*.
 ///
 /// Heights are in metres, upwards. Rows go from north to south, columns from west to east. A void is NaN.

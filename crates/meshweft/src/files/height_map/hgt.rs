@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use super::super::error::{FileErrorKind, Place, Problem};
-use super::HeightMapOptions;
+use super::options::HeightMapOptions;
 use super::placement::MapPlacement;
 use super::sampled::{HeightRule, ReadHeights, checked_size};
 

@@ -13,6 +13,7 @@ use crate::limits::Limits;
 pub(super) enum HeightMapKind {
     Png,
     Pgm,
+    Tiff,
     Srtm,
     UsgsDem,
 }
@@ -94,6 +95,9 @@ fn of_content(bytes: &[u8]) -> Option<Result<HeightMapKind, FileErrorKind>> {
     let refused = |what: &str, advice: &str| Some(Err(refusal(what, advice)));
     let is_blank_at = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_whitespace);
     match bytes {
+        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => {
+            return Some(Ok(HeightMapKind::Tiff));
+        }
         [0x89, b'P', b'N', b'G', ..] => return Some(Ok(HeightMapKind::Png)),
         [b'P', b'2' | b'5', b'#', ..] => return Some(Ok(HeightMapKind::Pgm)),
         [b'P', b'2' | b'5', ..] if is_blank_at(2) => return Some(Ok(HeightMapKind::Pgm)),

@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::super::error::{FileErrorKind, Place, Problem};
 use super::super::note::Note;
 use super::super::text::{line_end, line_of, shown, whole_number};
-use super::HeightMapOptions;
+use super::options::HeightMapOptions;
 use super::placement::MapPlacement;
 use super::sampled::{HeightRule, ReadHeights, checked_size, ends_in_row};
 

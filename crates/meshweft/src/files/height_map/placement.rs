@@ -53,6 +53,12 @@ pub(super) fn spacing_of(
                     "its latitudes reach from {south} to {north}: they end at 90 degrees"
                 )));
             }
+            let east = step[0] * f64::from(size[0] - 1);
+            if east > 361.0 {
+                return Err(FileErrorKind::malformed(format!(
+                    "its longitudes reach over {east} degrees: all are 360"
+                )));
+            }
             let metres = metres_per_degree(middle);
             Some([step[0] * metres[0], step[1] * metres[1]])
         }

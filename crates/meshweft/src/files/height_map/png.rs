@@ -9,7 +9,7 @@ use ::png::{BitDepth, ColorType, Decoder, DecodingError, Limits as PngLimits, Tr
 
 use super::super::error::{FileErrorKind, Place, Problem};
 use super::super::note::Note;
-use super::HeightMapOptions;
+use super::options::HeightMapOptions;
 use super::placement::MapPlacement;
 use super::sampled::{HeightRule, ReadHeights, checked_size};
 

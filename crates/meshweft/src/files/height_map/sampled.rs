@@ -2,7 +2,7 @@
 
 use super::super::error::{FileErrorKind, Place, Problem};
 use super::super::note::Note;
-use super::HeightMapOptions;
+use super::options::HeightMapOptions;
 use super::placement::MapPlacement;
 use crate::height_grid::HeightGrid;
 use crate::index::index32;

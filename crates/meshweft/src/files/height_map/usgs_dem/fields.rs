@@ -1,5 +1,8 @@
 //! Fields of fixed width, as Fortran writes them.
 
+use super::super::super::error::FileErrorKind;
+use super::super::super::text::{shown, whole_number};
+
 /// The characters of a field, without blanks around.
 pub(super) fn text_of(block: &[u8], from: usize, width: usize) -> &[u8] {
     let end = (from + width).min(block.len());
@@ -8,13 +11,19 @@ pub(super) fn text_of(block: &[u8], from: usize, width: usize) -> &[u8] {
 
 /// A whole number.
 pub(super) fn whole(block: &[u8], from: usize, width: usize) -> Option<i64> {
-    super::super::super::text::whole_number(text_of(block, from, width))
+    whole_number(text_of(block, from, width))
 }
 
 /// A number with a point, whose exponent may be marked by a D.
 pub(super) fn decimal(block: &[u8], from: usize, width: usize) -> Option<f64> {
     let text = std::str::from_utf8(text_of(block, from, width)).ok()?;
     text.replace(['D', 'd'], "E").parse().ok()
+}
+
+/// The error for a field that holds no number.
+pub(super) fn field_error(block: &[u8], from: usize, width: usize, what: &str) -> FileErrorKind {
+    let found = shown(text_of(block, from, width));
+    FileErrorKind::malformed(format!("{found} where a number was expected: {what}"))
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 
 use super::super::super::error::{FileErrorKind, Place, Problem};
-use super::fields::{decimal, whole};
-use super::{DemBlocks, DemHeader, field_error};
+use super::blocks::DemBlocks;
+use super::fields::{decimal, field_error, whole};
+use super::header::DemHeader;
 
 /// A column of elevations from south to north.
 pub(super) struct DemProfile {

@@ -1,6 +1,49 @@
-use std::path::PathBuf;
+//! Real height maps, and what the tests of each format share.
 
-use super::*;
+use std::path::{Path, PathBuf};
+
+use super::{HeightMap, HeightMapOptions, MapPlacement};
+
+mod damage;
+mod images;
+mod joins;
+mod models;
+mod tiff;
+
+fn options() -> HeightMapOptions {
+    HeightMapOptions::default()
+}
+
+fn read(name: &str, bytes: &[u8]) -> Result<HeightMap, String> {
+    let read = HeightMap::from_bytes(name.as_ref(), bytes, &options());
+    read.map_err(|error| error.to_string())
+}
+
+fn error(name: &str, bytes: &[u8]) -> String {
+    read(name, bytes).unwrap_err()
+}
+
+/// The heights of a grid of that many places.
+fn heights<const N: usize>(map: &HeightMap) -> [f32; N] {
+    map.grid.heights().try_into().expect("as many places")
+}
+
+/// A small file of each kind, and its name.
+fn samples_of_all_kinds() -> Vec<(&'static str, Vec<u8>)> {
+    let tile = (0..18).collect();
+    let mut all = vec![
+        ("N00E000.hgt", tile),
+        ("text.pgm", b"P2 3 2 999\n1 2 3\n40 50 600\n".to_vec()),
+        (
+            "a.pgm",
+            b"P5 3 2 999\n\0\x01\0\x02\0\x03\x01\0\x02\0\x03\0".to_vec(),
+        ),
+    ];
+    all.extend(images::samples().into_iter().map(|bytes| ("a.png", bytes)));
+    all.push(("a.dem", models::sample()));
+    all.extend(tiff::samples().into_iter().map(|bytes| ("a.tif", bytes)));
+    all
+}
 
 /// A real height map; the run fails without it where that was asked for.
 fn real(name: &str) -> Option<PathBuf> {

@@ -1,0 +1,114 @@
+//! Files that are cut, changed or of other kinds.
+
+use super::{error, samples_of_all_kinds};
+use crate::files::height_map::{HeightMap, HeightMapOptions};
+
+#[test]
+fn what_is_no_height_map_is_said() {
+    let cases: [(&str, &[u8], &str); 8] = [
+        ("a.png", b"\xff\xd8\xff\xe0 JFIF", "a JPEG image"),
+        ("a.asc", b"ncols 3\nnrows 2\n", "an Arc/Info ASCII grid"),
+        (
+            "a.tif",
+            b"\x1f\x8b\x08\0",
+            "gzip data, which is not read as heights. Unpack it first",
+        ),
+        ("a.hgt", b"PK\x03\x04", "a ZIP archive"),
+        ("a.pgm", b"P6 2 2 255 abcdefghijkl", "a colour image"),
+        ("a.tif", b"text", "neither the name nor the first bytes"),
+        (
+            "a.ply",
+            b"ply\nformat ascii 1.0\n",
+            "neither the name nor the first bytes",
+        ),
+        ("a.dem", b"", "the file ends inside the header"),
+    ];
+    for (name, bytes, expected) in cases {
+        let found = error(name, bytes);
+        assert!(
+            found.starts_with(name) && found.contains(expected),
+            "{found}"
+        );
+    }
+}
+
+/// Reads whatever it is: what comes out is a grid that a file of this length may have.
+fn check(name: &str, bytes: &[u8]) -> bool {
+    let read = HeightMap::from_bytes(name.as_ref(), bytes, &HeightMapOptions::default());
+    let Ok(map) = read else {
+        return false;
+    };
+    let places = map.grid.heights().len();
+    assert!(places * 4 <= (52 << 20) + 16 * bytes.len());
+    assert!(
+        map.grid
+            .heights()
+            .iter()
+            .all(|it| it.is_nan() || it.is_finite())
+    );
+    true
+}
+
+#[test]
+fn a_file_that_is_cut_anywhere_is_an_error() {
+    for (name, bytes) in samples_of_all_kinds() {
+        assert!(check(name, &bytes), "{name}");
+        let read = (0..bytes.len())
+            .filter(|&length| check(name, &bytes[..length]))
+            .count();
+        // A shorter square is a tile, a text may end within its last number of three digits, and blanks fill a last block.
+        let allowed = match name {
+            "N00E000.hgt" => 1,
+            "text.pgm" => 3,
+            "a.dem" => 1024,
+            // Nothing may follow the list of tags.
+            "a.tif" => 8,
+            _ => 0,
+        };
+        assert!(read <= allowed, "{name}: {read}");
+    }
+}
+
+#[test]
+fn changed_bytes_do_no_harm() {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut random = |below: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from(state >> 33).unwrap() % below
+    };
+    for (name, bytes) in samples_of_all_kinds() {
+        for _ in 0..1500 {
+            let mut changed = bytes.clone();
+            for _ in 0..=random(4) {
+                let at = random(changed.len());
+                changed[at] = match random(3) {
+                    0 => changed[at] ^ 1 << random(8),
+                    1 => [0, 255, b'9', b' '][random(4)],
+                    _ => u8::try_from(random(256)).unwrap(),
+                };
+            }
+            check(name, &changed);
+        }
+    }
+}
+
+#[test]
+fn the_seeds_of_the_fuzz_target_are_read() {
+    let seeds =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus/height_map");
+    // A package of the library alone has none.
+    let Ok(seeds) = std::fs::read_dir(seeds) else {
+        return;
+    };
+    let names = seeds.map(|seed| seed.unwrap().path());
+    let read: Vec<bool> = names
+        .map(|path| {
+            let read = check("N47W123.hgt", &std::fs::read(&path).unwrap());
+            assert!(read, "{}", path.display());
+            read
+        })
+        .collect();
+    assert!(read.len() >= 13);
+}
