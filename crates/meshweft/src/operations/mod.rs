@@ -55,6 +55,8 @@ mod simplify;
 mod striped_mesh;
 #[cfg(feature = "files")]
 mod vertex_groups;
+#[cfg(feature = "files")]
+mod walks;
 
 #[cfg(feature = "files")]
 pub use compare::{CompareReport, ComparedFile, compare};
@@ -80,11 +82,10 @@ pub use inspect::{InspectReport, inspect};
 pub use json::SCHEMA;
 #[cfg(feature = "files")]
 pub use lod::{
-    Camera, CameraPath, EvictionPolicy, ExtractedMesh, LodBuildOptions, LodBuildReport, LodDetail,
-    LodError, LodExtractOptions, LodExtractReport, LodSource, LodVerifyOptions, LodVerifyReport,
-    LodWalkOptions, LodWalkReport, MOST_FRAMES, PixelErrors, RecordedWalk, VerifiedFrame,
-    WalkFrame, WalkOptimum, WalkOptionError, WalkQuantity, WalkRecorder, WalkSummary, WalkedMesh,
-    cameras_from_json, lod_build, lod_extract, lod_verify, lod_walk,
+    CameraPath, ExtractedMesh, LodBuildOptions, LodBuildReport, LodDetail, LodError,
+    LodExtractOptions, LodExtractReport, LodSource, LodVerifyOptions, LodVerifyReport,
+    LodWalkOptions, LodWalkReport, RecordedWalk, VerifiedFrame, WalkRecorder, WalkedMesh,
+    lod_build, lod_extract, lod_verify, lod_walk,
 };
 pub use methods::{InBatches, Method, grid_orders, linear_arrangement_cost};
 #[cfg(feature = "files")]
@@ -98,3 +99,13 @@ pub use simplify::{
     StopReason, simplify,
 };
 pub use striped_mesh::{FacePlanes, StripedMesh, ViewFrom};
+#[cfg(feature = "files")]
+pub use walks::{
+    MOST_FRAMES, PixelErrors, WalkFrame, WalkOptimum, WalkOptionError, WalkQuantity, WalkSummary,
+    cameras_from_json,
+};
+
+#[cfg(feature = "files")]
+pub use crate::lod::Camera;
+#[cfg(feature = "files")]
+pub use crate::lod::geometry_cache::EvictionPolicy;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::build::names;
-use super::options::{LodError, WalkOptionError};
+use super::options::LodError;
 use crate::attribute::{Attribute, AttributeInfo, Semantic};
 use crate::index::index32;
 use crate::limits::Limits;
@@ -15,6 +15,7 @@ use crate::lod::fast_mesh::{FrameBudget, Front, StreamedFront};
 use crate::lod::{Camera, CameraView};
 use crate::mesh::Mesh;
 use crate::operations::json;
+use crate::operations::walks::WalkOptionError;
 use crate::order::{KCacheReorder, by_first_use};
 
 /// Which mesh of a `.mwl` file is taken.

@@ -6,17 +6,13 @@
 //! is measured, `recording` for one walk drawn by several policies.
 
 mod build;
-mod camera_file;
 mod detail_front;
 mod extract;
 #[cfg(test)]
 mod file_tests;
-mod frame;
 mod loading;
-mod measured_view;
 mod options;
 mod paths;
-mod pixel_errors;
 mod read_back;
 #[cfg(test)]
 mod real_tests;
@@ -36,17 +32,12 @@ mod walk;
 #[cfg(test)]
 mod walk_tests;
 
-pub use crate::lod::Camera;
-pub use crate::lod::geometry_cache::EvictionPolicy;
 pub use build::{LodBuildOptions, LodBuildReport, lod_build};
-pub use camera_file::{MOST_FRAMES, cameras_from_json};
 pub use extract::{ExtractedMesh, LodDetail, LodExtractOptions, LodExtractReport, lod_extract};
-pub use frame::{WalkFrame, WalkQuantity};
-pub use options::{LodError, LodWalkOptions, WalkOptionError};
+pub use options::{LodError, LodWalkOptions};
 pub use paths::CameraPath;
-pub use pixel_errors::PixelErrors;
 pub use recording::{RecordedWalk, WalkRecorder};
-pub use report::{LodWalkReport, WalkOptimum, WalkSummary, WalkedMesh};
+pub use report::{LodWalkReport, WalkedMesh};
 pub use source::LodSource;
 pub use verify::lod_verify;
 pub use verify_options::LodVerifyOptions;

@@ -3,7 +3,6 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use super::camera_file::MOST_FRAMES;
 use super::paths::CameraPath;
 use crate::attribute::AttributeInfo;
 use crate::error::MeshError;
@@ -13,6 +12,7 @@ use crate::lod::HierarchyError;
 use crate::lod::geometry_cache::{EvictionPolicy, GeometryCacheError};
 use crate::lod::{CameraView, ViewError};
 use crate::operations::losses;
+use crate::operations::walks::{WalkNumbers, WalkOptionError};
 
 /// How a mesh is walked around.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,9 +62,6 @@ impl Default for LodWalkOptions {
     }
 }
 
-/// Largest side of a picture, and largest size of a vertex.
-const MOST: usize = 65_535;
-
 impl LodWalkOptions {
     /// What the camera of a frame of `count` sees; `ball` has the mesh in it.
     pub(super) fn view(
@@ -86,79 +83,31 @@ impl LodWalkOptions {
     /// # Errors
     /// The first one that is not.
     pub fn check(&self) -> Result<(), WalkOptionError> {
-        let is_count = |number: usize, least: usize, most: usize| (least..=most).contains(&number);
-        let error = |option, found: String, allowed: String| {
-            Err(WalkOptionError {
-                option,
-                found,
-                allowed,
-            })
+        let cameras = match &self.path {
+            CameraPath::Given(cameras) => Some(cameras.len()),
+            _ => None,
         };
-        if let Some(frames) = self
-            .frames
-            .filter(|&frames| !is_count(frames, 1, MOST_FRAMES))
-        {
-            return error("frames", frames.to_string(), format!("1 to {MOST_FRAMES}"));
+        let numbers = WalkNumbers {
+            frames: self.frames,
+            cameras,
+            size: self.size,
+            tolerance: self.tolerance,
+            slots: self.slots,
+            policy: self.policy,
+            passes: self.passes,
+            vertex_size: self.vertex_size,
+        };
+        numbers.check()?;
+        match self.hysteresis > 0.0 && self.hysteresis <= 1.0 {
+            true => Ok(()),
+            false => Err(WalkOptionError {
+                option: "hysteresis",
+                found: self.hysteresis.to_string(),
+                allowed: "a part of the tolerance, above 0 and at most 1".to_owned(),
+            }),
         }
-        if let CameraPath::Given(cameras) = &self.path
-            && !is_count(cameras.len(), 1, MOST_FRAMES)
-        {
-            let found = format!("of {} cameras", cameras.len());
-            return error("path", found, format!("1 to {MOST_FRAMES}"));
-        }
-        let [width, height] = self.size;
-        if !self
-            .size
-            .iter()
-            .all(|&side| is_count(side as usize, 1, MOST))
-        {
-            let allowed = format!("1 to {MOST} pixels for width and height, such as 800x600");
-            return error("size", format!("{width}x{height}"), allowed);
-        }
-        if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
-            let allowed = "a number of pixels above 0".to_owned();
-            return error("tolerance", self.tolerance.to_string(), allowed);
-        }
-        if !(self.hysteresis > 0.0 && self.hysteresis <= 1.0) {
-            let allowed = "a part of the tolerance, above 0 and at most 1".to_owned();
-            return error("hysteresis", self.hysteresis.to_string(), allowed);
-        }
-        let most = GeometryCacheError::MOST_SLOTS;
-        if !is_count(self.slots, 3, most) {
-            let allowed = format!("3, which a face needs, to {most}");
-            return error("slots", self.slots.to_string(), allowed);
-        }
-        if self.passes && self.policy == EvictionPolicy::Nothing {
-            let allowed = "a policy that keeps vertices in slots: without one all are streamed";
-            let found = "with the policy none".to_owned();
-            return error("passes", found, allowed.to_owned());
-        }
-        if !is_count(self.vertex_size, 1, MOST) {
-            let allowed = format!("1 to {MOST} bytes");
-            return error("vertex-size", self.vertex_size.to_string(), allowed);
-        }
-        Ok(())
     }
 }
-
-/// An option that is out of its range.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct WalkOptionError {
-    /// Its name, with a dash between words.
-    pub option: &'static str,
-    /// What it is.
-    pub found: String,
-    /// What it may be.
-    pub allowed: String,
-}
-
-impl fmt::Display for WalkOptionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}: give {}", self.option, self.found, self.allowed)
-    }
-}
-
-impl std::error::Error for WalkOptionError {}
 
 /// Why a mesh cannot be made into a `.mwl` file, taken from one, walked around or measured.
 #[derive(Debug)]

@@ -2,10 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::frame::WalkFrame;
 use super::loading::{Loaded, load};
 use super::options::{LodError, LodWalkOptions};
-use super::report::{LodWalkReport, WalkOptimum, WalkedMesh};
+use super::report::{LodWalkReport, WalkedMesh};
 use crate::files::Document;
 use crate::index::index32;
 use crate::lod::CameraView;
@@ -13,6 +12,8 @@ use crate::lod::fast_mesh::{FrameBudget, Front, FrontChanges};
 use crate::lod::geometry_cache::{
     EvictionPolicy, FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
 };
+use crate::operations::walks::WalkFrame;
+use crate::operations::walks::WalkOptimum;
 use crate::progress::Progress;
 
 /// The meshes of a document with all levels of detail, to walk around them more than once.

@@ -4,13 +4,13 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::frame::WalkFrame;
 use super::options::{LodError, LodWalkOptions};
 use super::paths::CameraPath;
 use super::recording::WalkRecorder;
 use super::walk::lod_walk;
 use crate::files::{Document, Format, ReadOptions};
 use crate::lod::geometry_cache::{EvictionPolicy, GeometryCache, IndexSlots};
+use crate::operations::walks::WalkFrame;
 use crate::progress::Progress;
 
 /// Waves over a square of 40 by 40 cells.

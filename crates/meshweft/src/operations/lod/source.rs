@@ -1,14 +1,14 @@
 //! What has levels of detail: meshes, of which they are made, or a `.mwl` file, which has them.
 
 use std::fmt;
-use std::fs::{self, File};
-use std::io::{self, Read, Seek};
+use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 
 use super::options::LodError;
-use crate::files::{Document, FileError, FileErrorKind, Place, ReadOptions};
+use crate::files::{Document, ReadOptions};
 use crate::limits::Limits;
 use crate::lod::fast_mesh::{StreamedFront, VertexHierarchy};
+use crate::operations::walks::{BlockSource, is_stored, open_stored};
 
 /// A mesh to look at from anywhere: a document, or a `.mwl` file, of which only what is needed is read.
 ///
@@ -32,11 +32,6 @@ pub(super) struct StoredFile {
     pub(super) front: StreamedFront<Box<dyn BlockSource>>,
 }
 
-/// Bytes of which any part can be read.
-pub(super) trait BlockSource: Read + Seek + Send + Sync {}
-
-impl<S: Read + Seek + Send + Sync> BlockSource for S {}
-
 impl fmt::Debug for StoredFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("StoredFile")
@@ -52,28 +47,11 @@ impl LodSource<'static> {
     /// [`LodError::File`] if it cannot be read or is over a limit, [`LodError::Stored`] if it is a `.mwl` file, or named as one, and not
     /// sound.
     pub fn open(path: &Path, options: &ReadOptions) -> Result<Self, LodError> {
-        let is_named = path
-            .extension()
-            .is_some_and(|it| it.eq_ignore_ascii_case("mwl"));
-        if !is_named && !begins_as_stored(path) {
+        if !is_stored(path, "mwl", VertexHierarchy::begins_bytes) {
             let kind = SourceKind::Opened(Box::new(Document::open(path, options.clone())?));
             return Ok(Self { kind });
         }
-
-        let in_file =
-            |kind: FileErrorKind| -> FileError { kind.at(Place::File).in_file(path, None) };
-        let file = File::open(path).map_err(|error| in_file(FileErrorKind::Io(error)))?;
-        let length = file.metadata();
-        let length = length.map_err(|error| in_file(FileErrorKind::Io(error)))?;
-        if !length.is_file() {
-            let what = "this is a folder, a pipe or a device: name a file";
-            return Err(in_file(FileErrorKind::Io(io::Error::other(what))).into());
-        }
-        let limit = options.limits.file_bytes;
-        if length.len() > limit {
-            let (what, found) = ("bytes", length.len());
-            return Err(in_file(FileErrorKind::OverLimit { what, found, limit }).into());
-        }
+        let file = open_stored(path, options.limits)?;
         Self::stored(path, file, options.limits)
     }
 
@@ -103,12 +81,4 @@ impl<'a> From<&'a Document> for LodSource<'a> {
         let kind = SourceKind::Document(document);
         Self { kind }
     }
-}
-
-/// Whether a file begins as a `.mwl` file does. Of a pipe nothing is read, as nobody else could read it then.
-fn begins_as_stored(path: &Path) -> bool {
-    let mut start = Vec::new();
-    let is_file = fs::metadata(path).is_ok_and(|it| it.is_file());
-    let read = || File::open(path)?.take(16).read_to_end(&mut start);
-    is_file && { read }().is_ok() && VertexHierarchy::begins_bytes(&start)
 }

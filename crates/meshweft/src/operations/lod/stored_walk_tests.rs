@@ -5,7 +5,6 @@ use std::io::{self, Cursor, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use super::detail_front::LoadedFront;
-use super::frame::{WalkFrame, WalkQuantity};
 use super::options::{LodError, LodWalkOptions};
 use super::paths::CameraPath;
 use super::report::LodWalkReport;
@@ -19,6 +18,7 @@ use crate::limits::Limits;
 use crate::lod::fast_mesh::{FastMesh, reseal};
 use crate::lod::geometry_cache::EvictionPolicy;
 use crate::mesh::Mesh;
+use crate::operations::walks::{WalkFrame, WalkQuantity};
 use crate::random::{SplitMix64, from_environment};
 
 pub(super) fn bytes_of(document: &Document) -> Vec<u8> {

@@ -4,9 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::detail_front::LoadedFront;
-use super::measured_view::MeasuredView;
 use super::options::LodError;
-use super::pixel_errors::CollectedErrors;
 use super::report::WalkedMesh;
 use super::source::LodSource;
 use super::verify_options::LodVerifyOptions;
@@ -16,6 +14,8 @@ use crate::geometry::{Ball, Surface, vertex_normals};
 use crate::index::index32;
 use crate::lod::Camera;
 use crate::lod::fast_mesh::Front;
+use crate::operations::walks::CollectedErrors;
+use crate::operations::walks::MeasuredView;
 use crate::parallel;
 use crate::progress::{PartOfWork, Progress};
 

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use super::options::{LodWalkOptions, WalkOptionError};
+use super::options::LodWalkOptions;
 use super::paths::CameraPath;
 use crate::geometry::Ball;
 use crate::lod::Camera;
+use crate::operations::walks::WalkOptionError;
 
 /// How what is drawn is measured.
 #[derive(Debug, Clone, PartialEq)]

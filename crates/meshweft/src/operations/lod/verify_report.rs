@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::pixel_errors::PixelErrors;
 use super::report::WalkedMesh;
 use super::verify_options::LodVerifyOptions;
 use crate::files::Note;
 use crate::operations::json;
+use crate::operations::walks::PixelErrors;
 
 /// What [`lod_verify`](super::lod_verify) measured.
 #[derive(Debug, Clone)]

@@ -3,15 +3,15 @@
 use std::ops::ControlFlow;
 
 use super::detail_front::{DetailFront, LoadedFront};
-use super::frame::WalkFrame;
 use super::options::{LodError, LodWalkOptions};
-use super::report::{LodWalkReport, WalkOptimum, WalkedMesh};
+use super::report::{LodWalkReport, WalkedMesh};
 use super::source::LodSource;
-use crate::index::{BLOCK, index32};
+use crate::index::index32;
 use crate::lod::CameraView;
 use crate::lod::geometry_cache::{
     FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
 };
+use crate::operations::walks::{WalkFrame, WalkOptimum, draw_passes};
 use crate::progress::{PartOfWork, Progress};
 
 /// Walks around the meshes of a document, all as one, or around a `.mwl` file, and counts what each frame would send to a graphics
@@ -114,8 +114,6 @@ pub(super) struct Walker {
     is_first: bool,
     /// The faces that came or have other corners.
     patched: Vec<(u32, [u32; 3])>,
-    /// The indices of a pass.
-    pass: Vec<[u32; 3]>,
 }
 
 impl Walker {
@@ -144,7 +142,6 @@ impl Walker {
             bytes_read: 0,
             is_first: true,
             patched: Vec::new(),
-            pass: Vec::new(),
             detail,
         })
     }
@@ -229,29 +226,14 @@ impl Walker {
         self.is_first = false;
         self.bytes_read = read;
         if mode == FrameMode::Passes {
-            self.draw_passes(&mut frame)?;
+            draw_passes(
+                &mut self.cache,
+                self.indices.corners(),
+                self.vertex_size,
+                &mut frame,
+            )?;
             frame.cache_milliseconds += 1e3 * (clock() - indexed);
         }
         Ok(frame)
-    }
-
-    /// Draws the faces of a frame that does not fit into the slots, and adds what that sends.
-    fn draw_passes(&mut self, frame: &mut WalkFrame) -> Result<(), GeometryCacheError> {
-        let index_size = if self.cache.slots() <= BLOCK { 2 } else { 4 };
-        let mut passes = self.cache.passes(self.indices.corners())?;
-        frame.passes = 0;
-        while let Some(pass) = passes.next_pass() {
-            self.pass.clear();
-            self.pass.extend(pass.indices());
-            let statistics = pass.upload().statistics();
-            frame.passes += 1;
-            frame.inserts += statistics.inserts;
-            frame.vertex_ranges += statistics.ranges;
-            frame.vertex_bytes += statistics.bytes(self.vertex_size);
-            frame.patched_faces += self.pass.len();
-            frame.index_ranges += 1;
-            frame.index_bytes += 3 * (self.pass.len() * index_size) as u64;
-        }
-        Ok(())
     }
 }

@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use super::detail_front::LoadedFront;
-use super::frame::{WalkFrame, WalkQuantity};
 use super::options::{LodError, LodWalkOptions};
 use super::paths::CameraPath;
 use super::walk::{Walker, lod_walk};
 use crate::files::{Document, Format, ReadOptions};
 use crate::lod::geometry_cache::EvictionPolicy;
+use crate::operations::walks::{WalkFrame, WalkQuantity};
 use crate::progress::Progress;
 
 /// Cells on a side of a hill.

@@ -5,7 +5,7 @@ use crate::lod::Camera;
 
 /// A camera as its axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct MeasuredView {
+pub(in crate::operations) struct MeasuredView {
     eye: [f64; 3],
     /// To the right of the picture, up, and into it.
     axes: [[f64; 3]; 3],
@@ -17,7 +17,7 @@ pub(super) struct MeasuredView {
 
 impl MeasuredView {
     /// That of a camera which has a view.
-    pub(super) fn new(camera: &Camera, tolerance: f64) -> Self {
+    pub(in crate::operations) fn new(camera: &Camera, tolerance: f64) -> Self {
         let ahead = unit(sub(camera.target, camera.eye));
         let right = unit(cross(ahead, unit(camera.up)));
         let [width, height] = camera.size.map(f64::from);
@@ -31,7 +31,7 @@ impl MeasuredView {
     }
 
     /// Whether a point is in the picture, and its normal faces the eye.
-    pub(super) fn sees(&self, point: [f32; 3], normal: [f32; 3]) -> bool {
+    pub(in crate::operations) fn sees(&self, point: [f32; 3], normal: [f32; 3]) -> bool {
         let way = sub(widened(point), self.eye);
         let [x, y, depth] = self.axes.map(|axis| dot(way, axis));
         let is_inside = |at: f64, half: f64| at.abs() <= half * depth;
@@ -42,7 +42,7 @@ impl MeasuredView {
     }
 
     /// How many tolerances a length is where a point is.
-    pub(super) fn tolerances(&self, point: [f32; 3], length: f64) -> f64 {
+    pub(in crate::operations) fn tolerances(&self, point: [f32; 3], length: f64) -> f64 {
         let way = sub(widened(point), self.eye);
         length * self.scale / dot(way, way).sqrt()
     }

@@ -30,7 +30,7 @@ pub struct WalkFrame {
     pub passes: usize,
     /// Whether all vertices are sent as a stream.
     pub is_streamed: bool,
-    /// Bytes of a `.mwl` file that are read; in the first frame, with its head and its roots. 0 of any other file.
+    /// Bytes of a `.mwl` or `.mwt` file that are read; in the first frame, with its head and its roots. 0 of any other file.
     pub read_bytes: u64,
     /// Milliseconds to find what the view needs and to change the front.
     pub update_milliseconds: f64,
@@ -66,7 +66,7 @@ pub enum WalkQuantity {
     IndexBytes,
     /// Passes.
     Passes,
-    /// Bytes of a `.mwl` file that are read.
+    /// Bytes of a `.mwl` or `.mwt` file that are read.
     ReadBytes,
     /// Milliseconds to change the front.
     UpdateMilliseconds,
@@ -147,7 +147,7 @@ impl WalkQuantity {
     }
 
     /// A value of it as JSON: counts without a fraction.
-    pub(super) fn json(self, value: f64) -> Value {
+    pub(in crate::operations) fn json(self, value: f64) -> Value {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -161,7 +161,7 @@ impl WalkQuantity {
 }
 
 impl WalkFrame {
-    pub(super) fn json(&self) -> Value {
+    pub(in crate::operations) fn json(&self) -> Value {
         let figures = WalkQuantity::ALL.iter();
         let figures = figures.map(|it| (it.name().to_owned(), it.json(it.of(self))));
         let mut object: serde_json::Map<String, Value> = figures.collect();

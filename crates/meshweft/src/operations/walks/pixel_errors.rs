@@ -28,7 +28,7 @@ impl PixelErrors {
         }
     }
 
-    pub(super) fn json(&self) -> Value {
+    pub(in crate::operations) fn json(&self) -> Value {
         json!({
             "seen": self.seen,
             "within": self.within,
@@ -41,7 +41,7 @@ impl PixelErrors {
 
 /// The errors of several frames: only those are kept that may be above 99.9 % of all.
 #[derive(Debug)]
-pub(super) struct CollectedErrors {
+pub(in crate::operations) struct CollectedErrors {
     largest: Vec<f64>,
     /// How many may be needed.
     most: usize,
@@ -51,7 +51,7 @@ pub(super) struct CollectedErrors {
 
 impl CollectedErrors {
     /// For a number of errors at most.
-    pub(super) fn new(limit: usize) -> Self {
+    pub(in crate::operations) fn new(limit: usize) -> Self {
         Self {
             largest: Vec::new(),
             most: rank(limit) + 1,
@@ -60,7 +60,7 @@ impl CollectedErrors {
         }
     }
 
-    pub(super) fn extend(&mut self, errors: &[f64]) {
+    pub(in crate::operations) fn extend(&mut self, errors: &[f64]) {
         self.seen += errors.len();
         self.within += errors.iter().filter(|&&error| error <= 1.0).count();
         self.largest.extend(errors);
@@ -70,7 +70,7 @@ impl CollectedErrors {
         }
     }
 
-    pub(super) fn summary(mut self) -> PixelErrors {
+    pub(in crate::operations) fn summary(mut self) -> PixelErrors {
         self.largest.sort_unstable_by(descending);
         let at = |place: usize| self.largest.get(place).copied().unwrap_or_default();
         PixelErrors {
