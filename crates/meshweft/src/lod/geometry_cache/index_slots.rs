@@ -33,7 +33,7 @@ use crate::index::{BLOCK, index32};
 /// ```
 ///
 /// # Complexity
-/// Space: 4 bytes a face, and at most 37 a place.
+/// Space: 4 bytes a face, and at most 38 a place.
 #[derive(Debug, Clone)]
 pub struct IndexSlots {
     /// Of each face its place, if it lives.
@@ -52,6 +52,17 @@ pub struct IndexSlots {
     /// The places that this frame wrote.
     patched: SlotBits,
     patch: IndexPatch,
+    /// What a whole frame's faces are found to change.
+    difference: FaceDifference,
+}
+
+/// What lives in a frame beside what lived before.
+#[derive(Debug, Clone, Default)]
+struct FaceDifference {
+    /// Of each place whether its face stays.
+    stays: Vec<bool>,
+    left: Vec<u32>,
+    came: Vec<(u32, [u32; 3])>,
 }
 
 /// What a frame writes to an index buffer.
@@ -96,7 +107,13 @@ impl IndexSlots {
             slots: Vec::new(),
             patched: SlotBits::default(),
             patch: IndexPatch::default(),
+            difference: FaceDifference::default(),
         }
+    }
+
+    /// Room for so many faces more, with the next numbers.
+    pub fn grow(&mut self, faces: usize) {
+        self.places.resize(self.places.len() + faces, NONE);
     }
 
     /// The same with another largest share of places that are dead, from 0, always dense, to 1. It is .25 else.
@@ -152,6 +169,50 @@ impl IndexSlots {
 
         self.finish(cache);
         Ok(&self.patch)
+    }
+
+    /// Follows a frame of an implicit front, of which only is known what there is: exactly these faces live. Which of them came, and
+    /// what left, is found here. Name each once.
+    ///
+    /// # Errors
+    /// As [`update`](Self::update).
+    ///
+    /// # Complexity
+    /// Time O(faces of this frame and the last).
+    pub fn set_living(
+        &mut self,
+        cache: &GeometryCache,
+        living: &[(u32, [u32; 3])],
+    ) -> Result<&IndexPatch, IndexSlotsError> {
+        self.check("living faces", living.iter().map(|&(face, _)| face))?;
+        let mut difference = std::mem::take(&mut self.difference);
+        difference.restart(self.faces.len());
+
+        // What stays has to be drawn too.
+        let mut inactive = None;
+        for &(face, corners) in living {
+            let place = self.place(face).map(|it| it as usize);
+            match place {
+                Some(place) if self.corners[place] == corners => {
+                    difference.stays[place] = true;
+                    let missing = corners.iter().find(|&&it| !cache.is_active(it));
+                    inactive = inactive.or(missing.map(|&vertex| (face, vertex)));
+                }
+                _ => difference.came.push((face, corners)),
+            }
+        }
+        if let Some((face, vertex)) = inactive {
+            self.difference = difference;
+            return Err(IndexSlotsError::Inactive { face, vertex });
+        }
+        let places = self.faces.iter().zip(&difference.stays);
+        let left = places.filter(|&(&face, &stays)| face != NONE && !stays);
+        difference.left.extend(left.map(|(&face, _)| face));
+
+        let updated = self.update(cache, &difference.left, &difference.came);
+        let done = updated.map(|_| ());
+        self.difference = difference;
+        done.map(|()| &self.patch)
     }
 
     /// What the last frame writes.
@@ -339,6 +400,15 @@ impl IndexSlots {
                 self.buffer.write(place, [a, b, c]);
             }
         }
+    }
+}
+
+impl FaceDifference {
+    fn restart(&mut self, places: usize) {
+        self.stays.clear();
+        self.stays.resize(places, false);
+        self.left.clear();
+        self.came.clear();
     }
 }
 

@@ -8,7 +8,7 @@ use std::fmt;
 pub enum IndexSlotsError {
     /// A list of faces names one that does not exist.
     Face {
-        /// What the list has: `"removed faces"` or `"added faces"`.
+        /// What the list has: `"removed faces"`, `"added faces"` or `"living faces"`.
         list: &'static str,
         /// Where in the list.
         position: usize,

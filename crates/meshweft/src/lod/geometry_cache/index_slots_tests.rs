@@ -160,6 +160,52 @@ fn the_card_draws_what_lives() {
 }
 
 #[test]
+fn a_buffer_that_is_told_all_that_lives_finds_what_changed() {
+    for seed in 0..40 {
+        let random = &mut SplitMix64(seed);
+        let (slots, vertices) = (12 + random.below(30), 20 + random.below(40));
+        let mut cache = GeometryCache::new(slots, Vec::new(), EvictionPolicy::default()).unwrap();
+        cache.grow(&vec![1.0; vertices]).unwrap();
+        assert!(cache.grow(&[1.0, -1.0]).is_err());
+        assert_eq!(cache.vertices(), vertices);
+        let mut changed = IndexSlots::new(2 * vertices);
+        let mut whole = IndexSlots::new(0);
+        whole.grow(2 * vertices);
+        let mut scene = Scene::default();
+        for _ in 0..100 {
+            step(&mut scene, &mut cache, &mut changed, random, true);
+            let living: Vec<(u32, [u32; 3])> = scene.living.clone().into_iter().collect();
+            let before = living.iter().filter(|(face, corners)| {
+                let place = whole.place(*face).map(|it| whole.corners()[it as usize]);
+                place != Some(*corners)
+            });
+            let came = before.count();
+            let found = whole.set_living(&cache, &living).unwrap().statistics();
+            assert!(whole.is_true_to(&cache));
+            assert_eq!(found.living, living.len());
+            assert!(living.iter().all(|&(face, corners)| {
+                let place = whole.place(face).unwrap();
+                whole.corners()[place as usize] == corners
+            }));
+            if !found.is_rewritten {
+                assert!(found.patched >= came);
+                let again = whole.set_living(&cache, &living).unwrap().statistics();
+                assert_eq!(again.patched, 0);
+            }
+        }
+        let living: Vec<(u32, [u32; 3])> = scene.living.clone().into_iter().collect();
+        assert!(whole.set_living(&cache, &[(u32::MAX, [0; 3])]).is_err());
+        if let Some((face, corners)) = living.first() {
+            cache.change(&[], &corners[..1]).unwrap();
+            let error = whole.set_living(&cache, &living).unwrap_err();
+            let is_named =
+                matches!(error, IndexSlotsError::Inactive { vertex, .. } if vertex == corners[0]);
+            assert!(is_named, "{face}: {error}");
+        }
+    }
+}
+
+#[test]
 fn a_frame_without_changes_writes_nothing() {
     let mut cache = GeometryCache::new(9, vec![1.0; 20], EvictionPolicy::default()).unwrap();
     let mut indices = IndexSlots::new(4);

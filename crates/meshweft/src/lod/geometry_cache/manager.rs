@@ -115,6 +115,29 @@ impl GeometryCache {
         self
     }
 
+    /// More vertices, with these errors and the next numbers: for a front of which it is not known in the beginning how much of it a path
+    /// needs.
+    ///
+    /// # Errors
+    /// If there are more than 2^32 - 1 then, or an error is negative or not a number; everything is then as it was.
+    pub fn grow(&mut self, errors: &[f32]) -> Result<(), GeometryCacheError> {
+        let count = self.vertices() + errors.len();
+        if count > MAX_VERTICES {
+            return Err(GeometryCacheError::Vertices { count });
+        }
+        let mut all = (self.vertices()..).zip(errors);
+        all.try_for_each(|(vertex, &error)| check_error(vertex, error))?;
+
+        self.table.grow(errors);
+        for _ in errors {
+            self.front.grow();
+            if self.pass.limit() > 0 {
+                self.pass.grow();
+            }
+        }
+        Ok(())
+    }
+
     /// Another error for a vertex, for where errors are not all known in the beginning: until then any number will do.
     ///
     /// A policy is told the error of a vertex when its slot opens. So it counts from the next time on that the vertex leaves the front;

@@ -48,6 +48,12 @@ impl RecordedPath {
         }
     }
 
+    /// More vertices, with the next numbers.
+    pub fn grow(&mut self, vertices: usize) {
+        (0..vertices).for_each(|_| self.front.grow());
+        self.was_active.resize(self.front.limit(), false);
+    }
+
     /// Adds a frame in which exactly these vertices are active.
     ///
     /// # Errors

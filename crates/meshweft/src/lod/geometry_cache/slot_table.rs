@@ -50,6 +50,12 @@ impl SlotTable {
         }
     }
 
+    /// More vertices.
+    pub(super) fn grow(&mut self, errors: &[f32]) {
+        self.errors.extend_from_slice(errors);
+        self.slot_of.resize(self.errors.len(), NONE);
+    }
+
     pub(super) fn slots(&self) -> usize {
         self.slots.len()
     }

@@ -7,6 +7,7 @@ use super::tests::hills;
 use super::tree::TinTree;
 use super::{PointHierarchy, QuadTin, StreamedTin, TinLimit, TinSurface};
 use crate::bits::crc32;
+use crate::height_grid::HeightGrid;
 use crate::limits::Limits;
 use crate::lod::{Camera, CameraView, HierarchyError};
 use crate::random::{SplitMix64, from_environment};
@@ -137,6 +138,31 @@ fn use_all(bytes: &[u8]) -> Result<(), HierarchyError> {
     let tin = streamed.into_tin()?;
     tin.draw(&CameraView::of_errors_above(1.0).unwrap(), &mut surface);
     Ok(())
+}
+
+#[test]
+fn a_file_of_another_terrain_is_told_from_its_own() {
+    let mut random = SplitMix64(32);
+    let grid = hills([30, 21], 3, &mut random);
+    let own = QuadTin::over_grid(&grid).unwrap();
+    let file = bytes(&own);
+    assert!(own.is_stored_in(Cursor::new(&file)).unwrap());
+    for place in [0, 17, 629] {
+        let mut heights = grid.heights().to_vec();
+        heights[place] += 0.25;
+        let other = HeightGrid::new(grid.size(), grid.spacing(), heights).unwrap();
+        let other = QuadTin::over_grid(&other).unwrap();
+        // A void stays one.
+        let is_void = grid.heights()[place].is_nan();
+        assert_eq!(other.is_stored_in(Cursor::new(&file)).unwrap(), is_void);
+    }
+    let wider = HeightGrid::new(grid.size(), [30.5, 20.0], grid.heights().to_vec()).unwrap();
+    let wider = QuadTin::over_grid(&wider).unwrap();
+    assert!(!wider.is_stored_in(Cursor::new(&file)).unwrap());
+    assert!(
+        own.is_stored_in(Cursor::new(&file[..file.len() - 1]))
+            .is_err()
+    );
 }
 
 #[test]

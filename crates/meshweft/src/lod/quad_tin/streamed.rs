@@ -131,6 +131,39 @@ impl<S: Read + Seek> StreamedTin<S> {
 }
 
 impl QuadTin {
+    /// Whether a `.mwt` file has all of this terrain, bit for bit. Blocks are read one after the other, and none is kept.
+    ///
+    /// # Errors
+    /// [`HierarchyError`] if the file cannot be read, is not a terrain, or is damaged.
+    pub fn is_stored_in(&self, source: impl Read + Seek) -> Result<bool, HierarchyError> {
+        let mut stored = StreamedTin::open(source, Limits::default())?;
+        let [own, other] = [&self.grid, &stored.tin.grid];
+        let is_same_head = own.blocks == other.blocks
+            && own.spacing.map(f64::to_bits) == other.spacing.map(f64::to_bits)
+            && [own.errors, own.radii] == [other.errors, other.radii]
+            && self.extent.is_same(&stored.tin.extent);
+        if !is_same_head {
+            return Ok(false);
+        }
+        for block in 0..stored.blocks.len() {
+            if stored.tin.grid.nodes[block].is_none() {
+                stored.read(block)?;
+            }
+            let found = stored.tin.grid.nodes[block].take();
+            let is_same = self.grid.nodes[block]
+                .as_ref()
+                .zip(found)
+                .is_some_and(|(own, found)| {
+                    let mut vertices = self.grid.blocks.vertices(block);
+                    vertices.all(|(inside, _)| own[inside].is_same(&found[inside]))
+                });
+            if !is_same {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// Whether bytes begin as those of a `.mwt` file do.
     #[must_use]
     pub fn begins_bytes(start: &[u8]) -> bool {
