@@ -1,6 +1,6 @@
 //! Height maps: grids of heights from images, elevation models and georeferenced rasters.
 //!
-//! All become a [`HeightGrid`] in metres, with rows from north to south, and the place where it lies. What a
+//! All become a [`HeightGrid`](crate::HeightGrid) in metres, with rows from north to south, and the place where it lies. What a
 //! file says of its units, its scale and the value that stands for *no height* is followed; what is not
 //! supported is refused, with what to do instead. Nothing is written.
 //!

@@ -12,12 +12,6 @@ pub(super) struct TinExtent {
 }
 
 impl TinExtent {
-    /// Whether another one is the same, bit for bit.
-    pub(super) fn is_same(&self, other: &Self) -> bool {
-        self.heights.map(f32::to_bits) == other.heights.map(f32::to_bits)
-            && self.faces == other.faces
-    }
-
     /// That of a grid; `None` if it has no face.
     pub(super) fn of(grid: &HeightGrid) -> Option<Self> {
         let columns = grid.size()[0] as usize;

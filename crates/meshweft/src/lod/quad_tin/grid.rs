@@ -26,15 +26,6 @@ impl GridNode {
         error: 0,
         radius: 0,
     };
-
-    /// Whether another one is the same, bit for bit; all voids are.
-    pub(super) fn is_same(&self, other: &Self) -> bool {
-        let bits = |it: &Self| {
-            let height = (!it.height.is_nan()).then_some(it.height.to_bits());
-            (height, it.error, it.radius)
-        };
-        bits(self) == bits(other)
-    }
 }
 
 /// Vertices a side of a block, those of higher levels counted: these are not in it.

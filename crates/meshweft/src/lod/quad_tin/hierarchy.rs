@@ -99,8 +99,11 @@ impl QuadTin {
     /// The height of a vertex; `None` where it is void or was not read.
     #[must_use]
     pub fn height(&self, vertex: u32) -> Option<f32> {
-        let node = self.grid.node(self.place(vertex)).ok()?;
-        (!node.height.is_nan()).then_some(node.height)
+        let height = match &self.tree {
+            TinTree::Grid(grid) => grid.node(grid.place(vertex)).ok()?.height,
+            TinTree::Points(points) => points.position(vertex)[1],
+        };
+        (!height.is_nan()).then_some(height)
     }
 
     /// The error that keeps a vertex in the surface, if it is above it; infinite where it is always drawn.

@@ -54,6 +54,7 @@ mod stored_grid;
 mod stored_points;
 #[cfg(test)]
 mod stored_tests;
+mod stored_tree;
 mod streamed;
 mod strip;
 #[cfg(test)]

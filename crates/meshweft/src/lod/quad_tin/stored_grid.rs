@@ -10,7 +10,7 @@
 
 use super::grid::{BLOCK_NODES, GridNode, GridTin};
 use super::rounded::LengthScale;
-use super::stored::{StoredTree, check_count};
+use super::stored_tree::{StoredTree, check_count};
 use crate::bits::{DecodeError, varint};
 use crate::height_grid::HeightGrid;
 use crate::limits::Limits;

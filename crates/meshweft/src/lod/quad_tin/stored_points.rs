@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use super::point_input::MOST_VERTICES;
 use super::points::{BLOCK_VERTICES, CORNERS, PointHierarchy, PointNode, UnreadPoints};
-use super::stored::{StoredTree, check_count};
+use super::stored_tree::{StoredTree, check_count};
 use super::triangle::NONE;
 use crate::bits::{DecodeError, varint};
 use crate::limits::Limits;

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use super::stored::SIGNATURE;
+use super::stored_tree::SIGNATURE;
 use super::tests::hills;
 use super::tree::TinTree;
 use super::{PointHierarchy, QuadTin, StreamedTin, TinLimit, TinSurface};

@@ -1,11 +1,12 @@
 //! A terrain in a file of which only what is needed is read.
 
-use std::io::{Read, Seek};
+use std::io::{self, BufRead, BufReader, Read, Seek, Write};
 
 use super::descent::TinSurface;
 use super::hierarchy::QuadTin;
 use super::limited::TinLimit;
-use super::stored::{SIGNATURE, StoredHead, TinBlock};
+use super::stored::StoredHead;
+use super::stored_tree::{SIGNATURE, TinBlock};
 use crate::limits::Limits;
 use crate::lod::block_file::BlockFile;
 use crate::lod::hierarchy_error::HierarchyError;
@@ -131,42 +132,57 @@ impl<S: Read + Seek> StreamedTin<S> {
 }
 
 impl QuadTin {
-    /// Whether a `.mwt` file has all of this terrain, bit for bit. Blocks are read one after the other, and none is kept.
+    /// Whether a `.mwt` file has all of this terrain, bit for bit, whatever its name.
     ///
     /// # Errors
     /// [`HierarchyError`] if the file cannot be read, is not a terrain, or is damaged.
-    pub fn is_stored_in(&self, source: impl Read + Seek) -> Result<bool, HierarchyError> {
-        let mut stored = StreamedTin::open(source, Limits::default())?;
-        let [own, other] = [&self.grid, &stored.tin.grid];
-        let is_same_head = own.blocks == other.blocks
-            && own.spacing.map(f64::to_bits) == other.spacing.map(f64::to_bits)
-            && [own.errors, own.radii] == [other.errors, other.radii]
-            && self.extent.is_same(&stored.tin.extent);
-        if !is_same_head {
-            return Ok(false);
+    pub fn is_stored_in(&self, mut source: impl Read + Seek) -> Result<bool, HierarchyError> {
+        let name = StreamedTin::open(&mut source, Limits::default())?.name;
+        source.rewind()?;
+        let mut compared = ComparedBytes {
+            source: BufReader::new(source),
+            is_same: true,
+            buffer: Vec::new(),
+        };
+        match self.write(&name, &mut compared) {
+            Err(_) if !compared.is_same => return Ok(false),
+            done => done?,
         }
-        for block in 0..stored.blocks.len() {
-            if stored.tin.grid.nodes[block].is_none() {
-                stored.read(block)?;
-            }
-            let found = stored.tin.grid.nodes[block].take();
-            let is_same = self.grid.nodes[block]
-                .as_ref()
-                .zip(found)
-                .is_some_and(|(own, found)| {
-                    let mut vertices = self.grid.blocks.vertices(block);
-                    vertices.all(|(inside, _)| own[inside].is_same(&found[inside]))
-                });
-            if !is_same {
-                return Ok(false);
-            }
-        }
-        Ok(true)
+        // Nothing comes after it.
+        let rest = compared.source.fill_buf()?;
+        Ok(rest.is_empty())
     }
 
     /// Whether bytes begin as those of a `.mwt` file do.
     #[must_use]
     pub fn begins_bytes(start: &[u8]) -> bool {
         start.starts_with(&SIGNATURE.magic)
+    }
+}
+
+/// What is written to it is compared with a source.
+struct ComparedBytes<S> {
+    source: BufReader<S>,
+    is_same: bool,
+    buffer: Vec<u8>,
+}
+
+impl<S: Read> Write for ComparedBytes<S> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.buffer.resize(bytes.len(), 0);
+        let read = self.source.read_exact(&mut self.buffer);
+        match read {
+            Err(error) if error.kind() != io::ErrorKind::UnexpectedEof => return Err(error),
+            _ => self.is_same = read.is_ok() && self.buffer == bytes,
+        }
+        match self.is_same {
+            true => Ok(bytes.len()),
+            // The rest need not be compared.
+            false => Err(io::Error::other("the file differs")),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }

@@ -7,7 +7,7 @@ use super::extent::TinExtent;
 use super::grid::GridTin;
 use super::limited::{TinLimit, draw_within};
 use super::points::PointHierarchy;
-use super::stored::{self, StoredTree, TinBlock};
+use super::stored_tree::{self, StoredTree, TinBlock};
 use super::triangle::{BisectionTree, NodeBound};
 use crate::bits::DecodeError;
 use crate::lod::view::CameraView;
@@ -69,7 +69,7 @@ impl TinTree {
         name: &str,
         sink: &mut dyn Write,
     ) -> io::Result<()> {
-        with_tree!(self, tree => stored::write(tree, extent, name, sink))
+        with_tree!(self, tree => stored_tree::write(tree, extent, name, sink))
     }
 }
 

@@ -1,5 +1,10 @@
 //! Files that are cut, changed or of other kinds.
 
+use std::io::Write;
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+
 use super::{error, samples_of_all_kinds};
 use crate::files::height_map::{HeightMap, HeightMapOptions};
 
@@ -111,4 +116,49 @@ fn the_seeds_of_the_fuzz_target_are_read() {
         })
         .collect();
     assert!(read.len() >= 13);
+}
+
+#[test]
+fn a_file_is_told_by_its_bytes_and_then_by_its_name() {
+    let folder = std::env::temp_dir().join(format!("meshweft-height-maps-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let written = |name: &str, bytes: &[u8]| {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let mut packed = GzEncoder::new(Vec::new(), Compression::default());
+    packed.write_all(b"P5 2 2 255 abcd").unwrap();
+    let packed = packed.finish().unwrap();
+
+    for (name, bytes, expected) in [
+        ("map", &b"P5 2 2 255 abcd"[..], true),
+        ("packed", &packed, true),
+        ("tile.hgt", b"", true),
+        ("photo.jpg", b"\xff\xd8\xff\xe0", true),
+        ("grid.asc", b"NCOLS 3\n", true),
+        ("mesh.ply", b"ply\nformat ascii 1.0\n", false),
+        ("mesh.obj", b"v 0 0 0\n", false),
+        ("mesh.zip", b"PK\x03\x04", false),
+        ("nothing", b"", false),
+    ] {
+        let path = written(name, bytes);
+        assert_eq!(HeightMap::is_height_map(&path), expected, "{name}");
+    }
+    assert!(HeightMap::is_height_map("not/there.tif.gz".as_ref()));
+    assert!(!HeightMap::is_height_map("not/there.glb".as_ref()));
+
+    let options = HeightMapOptions::default();
+    let open = |name: &str| HeightMap::open(&folder.join(name), &options);
+    assert_eq!(
+        open("packed").unwrap().grid.heights(),
+        [97.0, 98.0, 99.0, 100.0]
+    );
+    written("plain.pgm.gz", b"P5 2 2 255 abcd");
+    let error = open("plain.pgm.gz").unwrap_err().to_string();
+    assert!(error.contains("remove .gz from the name"), "{error}");
+    written("cut.pgm.gz", &packed[..packed.len() - 12]);
+    let error = open("cut.pgm.gz").unwrap_err().to_string();
+    assert!(error.contains("the compressed data is damaged"), "{error}");
+    std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -126,9 +126,9 @@ fn chunk(name: &[u8; 4], data: &[u8]) -> Vec<u8> {
 fn raw_png(size: [u32; 2], interlaced: u8, rows: &[Vec<u16>]) -> Vec<u8> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     for row in rows {
-        encoder.write_all(&[0]).unwrap();
-        row.iter()
-            .for_each(|it| encoder.write_all(&it.to_be_bytes()).unwrap());
+        let samples = row.iter().flat_map(|it| it.to_be_bytes());
+        let bytes: Vec<u8> = std::iter::once(0).chain(samples).collect();
+        encoder.write_all(&bytes).unwrap();
     }
     let [width, height] = size.map(u32::to_be_bytes);
     let header = [&width[..], &height, &[16, 0, 0, 0, interlaced]].concat();
