@@ -16,7 +16,9 @@ mod plot;
 mod raster;
 mod run;
 mod simplify;
+mod terrain;
 mod usage;
+mod walks;
 
 use std::process::ExitCode;
 
@@ -33,6 +35,7 @@ use optimize::Optimize;
 use paper::Paper;
 use run::output::is_broken_pipe;
 use simplify::Simplify;
+use terrain::Terrain;
 use usage::Usage;
 
 /// Puts the triangles of a mesh in the order in which a GPU transforms each vertex about once.
@@ -89,6 +92,8 @@ enum Verb {
     Cull(Cull),
     /// Make, extract, walk around and measure view-dependent levels of detail
     Lod(Lod),
+    /// Make, extract, walk over and measure terrain
+    Terrain(Terrain),
     /// Count cache misses of files as they are
     ///
     ///   meshweft inspect scene.glb --cache fifo:12 --cache nvidia --json
@@ -120,6 +125,7 @@ fn main() -> ExitCode {
         Verb::Decompress(arguments) => decompress::run(arguments),
         Verb::Cull(arguments) => cull::run(arguments),
         Verb::Lod(arguments) => lod::run(arguments),
+        Verb::Terrain(arguments) => terrain::run(arguments),
         Verb::Inspect(arguments) => inspect::run(arguments),
         Verb::Compare(arguments) => compare::run(arguments),
         Verb::Demo(arguments) => demo::run(arguments),

@@ -11,11 +11,11 @@ use meshweft::operations::{
     self, ExtractedMesh, LodDetail, LodExtractOptions, LodExtractReport, LodWalkOptions,
 };
 
-use super::cameras;
 use crate::run::arguments::Size;
 use crate::run::output::Report;
 use crate::run::side_file::HIERARCHY;
 use crate::usage::Usage;
+use crate::walks::cameras;
 
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("detail").required(true))]
@@ -74,15 +74,8 @@ impl Extract {
         };
         let usual = LodWalkOptions::default();
         let size = self.size.unwrap_or(usual.size);
-        let all = cameras::of_file(path, size, self.limits.limits())?;
         let frame = self.frame.unwrap_or_default();
-        let camera = *all.get(frame).ok_or_else(|| {
-            let last = all.len() - 1;
-            let file = path.display();
-            Usage(format!(
-                "--frame {frame}: {file} has the frames 0 to {last}"
-            ))
-        })?;
+        let camera = cameras::of_frame(path, frame, size, self.limits.limits())?;
         let tolerance = self.tolerance.unwrap_or(usual.tolerance);
         Ok(LodDetail::Camera { camera, tolerance })
     }
@@ -103,6 +96,7 @@ pub(super) fn run(arguments: &Extract) -> Result<()> {
     if let Some(cameras) = &arguments.camera {
         HIERARCHY.check_other(&arguments.output, cameras, "--camera")?;
     }
+    files::check_new(&arguments.output, arguments.force)?;
 
     // The work.
     let name = || arguments.input.display().to_string();

@@ -1,7 +1,6 @@
 //! `lod`: detail that follows the eye.
 
 mod build;
-mod cameras;
 mod extract;
 mod verify;
 mod walk;

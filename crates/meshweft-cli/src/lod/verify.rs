@@ -5,14 +5,16 @@ use std::path::PathBuf;
 use anyhow::{Result, bail};
 use clap::Args;
 use meshweft::files::ReadOptions;
-use meshweft::operations::{self, LodSource, LodVerifyOptions, LodVerifyReport, PixelErrors};
+use meshweft::operations::{
+    self, CameraPath, LodSource, LodVerifyOptions, LodVerifyReport, PixelErrors,
+};
 
-use super::cameras;
 use crate::columns::columns;
 use crate::run::arguments::Size;
 use crate::run::output::{self, Report};
 use crate::run::watch::Watch;
 use crate::usage::Usage;
+use crate::walks::cameras;
 
 #[derive(Debug, Args)]
 pub(super) struct Verify {
@@ -61,7 +63,14 @@ pub(super) fn run(arguments: &Verify) -> Result<()> {
         .check()
         .map_err(|error| Usage(format!("--{error}")))?;
     let limits = arguments.limits.limits();
-    (options.path, options.camera_file) = cameras::path(&arguments.path, options.size, limits)?;
+    let shapes = CameraPath::SHAPES.map(|it| (it.name(), it));
+    (options.path, options.camera_file) = cameras::path(
+        &arguments.path,
+        shapes,
+        CameraPath::Given,
+        options.size,
+        limits,
+    )?;
 
     let mut reading = ReadOptions::default();
     reading.limits = limits;
@@ -92,7 +101,7 @@ fn text(report: &LodVerifyReport) -> String {
         mesh.vertices,
         mesh.faces,
         mesh.roots,
-        cameras::told(&options.path, options.camera_file.as_deref()),
+        cameras::told(options.path.name(), options.camera_file.as_deref()),
         report.frames.len(),
         options.tolerance,
     );

@@ -7,10 +7,10 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use meshweft::files::ReadOptions;
 use meshweft::operations::{
-    self, EvictionPolicy, LodSource, LodWalkOptions, LodWalkReport, WalkFrame, WalkQuantity,
+    self, CameraPath, EvictionPolicy, LodSource, LodWalkOptions, LodWalkReport, WalkFrame,
+    WalkQuantity,
 };
 
-use super::cameras;
 use crate::columns::columns;
 use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::Size;
@@ -18,6 +18,7 @@ use crate::run::output::{self, Report};
 use crate::run::side_file::{PLOT, PendingFile};
 use crate::run::watch::Watch;
 use crate::usage::Usage;
+use crate::walks::cameras;
 
 #[derive(Debug, Args)]
 pub(super) struct Walk {
@@ -111,7 +112,14 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
         .check()
         .map_err(|error| Usage(format!("--{error}")))?;
     let limits = arguments.limits.limits();
-    (options.path, options.camera_file) = cameras::path(&arguments.path, options.size, limits)?;
+    let shapes = CameraPath::SHAPES.map(|it| (it.name(), it));
+    (options.path, options.camera_file) = cameras::path(
+        &arguments.path,
+        shapes,
+        CameraPath::Given,
+        options.size,
+        limits,
+    )?;
     if let Some(path) = &arguments.plot {
         PLOT.check_no_mesh(path, [arguments.input.as_path()])?;
         if let Some(cameras) = &options.camera_file {
@@ -168,7 +176,7 @@ fn text(report: &LodWalkReport) -> String {
         mesh.vertices,
         mesh.faces,
         mesh.roots,
-        cameras::told(&options.path, options.camera_file.as_deref()),
+        cameras::told(options.path.name(), options.camera_file.as_deref()),
         report.frames.len(),
         options.tolerance,
         options.slots,

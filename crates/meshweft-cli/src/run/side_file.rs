@@ -1,8 +1,10 @@
 //! Files that a run writes beside the meshes: lists, orders, plots, pictures. None of them replaces anything else.
 
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
 
 use super::interrupt;
 use crate::usage::Usage;
@@ -74,6 +76,13 @@ pub(crate) const HIERARCHY: SideFile = SideFile {
     flag: "--output",
     other: "another name",
     is_own: |start| start.starts_with(b"MWLD"),
+};
+
+/// What `terrain build` writes.
+pub(crate) const TERRAIN: SideFile = SideFile {
+    flag: "--output",
+    other: "another name",
+    is_own: |start| start.starts_with(b"MWTN"),
 };
 
 /// What `--manifest` appends to.
@@ -157,6 +166,11 @@ impl SideFile {
     }
 }
 
+/// A file that is written and read again.
+pub(crate) trait Reread: Read + Write + Seek {}
+
+impl<F: Read + Write + Seek> Reread for F {}
+
 /// A side file that is on the disk, but gets its name only when the mesh it goes with has: neither is lost
 /// without the other.
 pub(crate) struct PendingFile {
@@ -171,10 +185,45 @@ pub(crate) struct PendingFile {
 impl PendingFile {
     /// Writes text or other bytes beside their place.
     pub(crate) fn new(path: &Path, bytes: impl Into<Vec<u8>>) -> io::Result<Self> {
+        let bytes = bytes.into();
+        let mut pending = Self::named(path)?;
+        match &mut pending.file {
+            Some(file) => {
+                file.write_all(&bytes)?;
+                file.sync_all()?;
+            }
+            None => pending.bytes = bytes,
+        }
+        Ok(pending)
+    }
+
+    /// Has a file written beside its place, and read again.
+    pub(crate) fn filled(
+        path: &Path,
+        fill: impl FnOnce(&mut dyn Reread) -> Result<()>,
+    ) -> Result<Self> {
+        let told = || path.display().to_string();
+        let mut pending = Self::named(path).with_context(told)?;
+        match &mut pending.file {
+            Some(file) => {
+                fill(file)?;
+                file.sync_all().with_context(told)?;
+            }
+            None => {
+                let mut bytes = io::Cursor::new(Vec::new());
+                fill(&mut bytes)?;
+                pending.bytes = bytes.into_inner();
+            }
+        }
+        Ok(pending)
+    }
+
+    /// An empty file beside its place.
+    fn named(path: &Path) -> io::Result<Self> {
         let mut pending = Self {
             path: path.to_owned(),
             temporary: None,
-            bytes: bytes.into(),
+            bytes: Vec::new(),
             file: None,
         };
         if fs::metadata(path).is_ok_and(|data| !data.is_file()) {
@@ -187,26 +236,22 @@ impl PendingFile {
         let mut name = std::ffi::OsString::from(".");
         name.push(format!("order.{}.meshweft-tmp", std::process::id()));
         let temporary = pending.path.with_file_name(name);
-        let file = fs::OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&temporary);
-        let mut file = match file {
+        let open = || {
+            let mut options = fs::OpenOptions::new();
+            options.read(true).write(true).create_new(true);
+            options.open(&temporary)
+        };
+        let file = match open() {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                 // Of a run that was killed.
                 fs::remove_file(&temporary)?;
-                fs::OpenOptions::new()
-                    .write(true)
-                    .create_new(true)
-                    .open(&temporary)?
+                open()?
             }
             file => file?,
         };
         // Not every file system has locks.
         let _ = file.lock();
         pending.temporary = Some(temporary);
-        file.write_all(&pending.bytes)?;
-        file.sync_all()?;
         pending.file = Some(file);
         Ok(pending)
     }

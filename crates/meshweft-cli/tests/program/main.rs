@@ -14,6 +14,7 @@ mod many;
 mod nothing_lost;
 mod papers;
 mod simplify;
+mod terrain;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -39,6 +39,19 @@ use super::write::{WriteOptions, Written};
 /// # Complexity
 /// Time and space O(bytes of the file).
 pub fn create(path: &Path, meshes: &[NewMesh<'_>], overwrite: bool) -> Result<Written, FileError> {
+    let (format, options) = checked(path, overwrite)?;
+    Document::create(format, path, meshes)?.write_with(path, &options)
+}
+
+/// Whether [`create`] may write a file of this name: before there is anything to write.
+///
+/// # Errors
+/// [`FileError`] as of [`create`]: the name stands for no format, there is such a file that is not to be replaced, or it is read-only.
+pub fn check_new(path: &Path, overwrite: bool) -> Result<(), FileError> {
+    checked(path, overwrite).map(|_| ())
+}
+
+fn checked(path: &Path, overwrite: bool) -> Result<(Format, WriteOptions<'static>), FileError> {
     let options = WriteOptions {
         replace_existing: overwrite,
         ..WriteOptions::default()
@@ -48,9 +61,8 @@ pub fn create(path: &Path, meshes: &[NewMesh<'_>], overwrite: bool) -> Result<Wr
         let problem = FileErrorKind::unsupported(text).at(Place::File);
         return Err(problem.in_file(path, None));
     };
-    // Before the work is done.
     options
         .check_existing(path)
         .map_err(|problem| problem.in_file(path, Some(format)))?;
-    Document::create(format, path, meshes)?.write_with(path, &options)
+    Ok((format, options))
 }

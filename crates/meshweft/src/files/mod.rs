@@ -64,7 +64,7 @@ mod unlisted;
 mod vrml;
 mod write;
 
-pub use create::create;
+pub use create::{check_new, create};
 pub use disk::{is_gzip, remove_abandoned};
 pub use document::Document;
 pub use edit::{Edit, NewValue};

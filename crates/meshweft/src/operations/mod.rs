@@ -23,6 +23,9 @@ mod compress;
 mod counts;
 #[cfg(feature = "files")]
 mod cull;
+#[cfg(all(test, feature = "files"))]
+#[path = "../../tests/data/folder.rs"]
+mod data_folder;
 #[cfg(feature = "files")]
 mod facets;
 #[cfg(feature = "files")]
@@ -53,6 +56,8 @@ mod shared_progress;
 #[cfg(feature = "files")]
 mod simplify;
 mod striped_mesh;
+#[cfg(feature = "height-maps")]
+mod terrain;
 #[cfg(feature = "files")]
 mod vertex_groups;
 #[cfg(feature = "files")]
@@ -99,6 +104,12 @@ pub use simplify::{
     StopReason, simplify,
 };
 pub use striped_mesh::{FacePlanes, StripedMesh, ViewFrom};
+#[cfg(feature = "height-maps")]
+pub use terrain::{
+    BuiltTerrain, ExtractedTerrain, TerrainBuildReport, TerrainDetail, TerrainError,
+    TerrainExtractOptions, TerrainExtractReport, TerrainFacts, TerrainHeights, TerrainReadOptions,
+    TerrainSource, terrain_build, terrain_extract,
+};
 #[cfg(feature = "files")]
 pub use walks::{
     MOST_FRAMES, PixelErrors, WalkFrame, WalkOptimum, WalkOptionError, WalkQuantity, WalkSummary,

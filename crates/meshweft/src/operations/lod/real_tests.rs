@@ -7,10 +7,8 @@ use crate::lod::fast_mesh::tests::{active, closure, failing};
 use crate::lod::fast_mesh::{FastMesh, Front};
 use crate::lod::{Camera, CameraView};
 use crate::mesh::Mesh;
+use crate::operations::data_folder;
 use crate::random::{SplitMix64, from_environment};
-
-#[path = "../../../tests/data/folder.rs"]
-mod folder;
 
 /// Closed meshes, some with borders, and one with points where it is not a manifold.
 const MESHES: [&str; 10] = [
@@ -56,7 +54,7 @@ fn views(ball: Ball, random: &mut SplitMix64) -> Vec<CameraView> {
 /// `MESHWEFT_SEED` for others.
 #[test]
 fn real_fronts_are_the_closure_of_what_the_view_needs() {
-    let Some(folder) = folder::folder() else {
+    let Some(folder) = data_folder::folder() else {
         return;
     };
     let paths = from_environment("MESHWEFT_CASES", 2);

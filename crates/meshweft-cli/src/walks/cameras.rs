@@ -3,39 +3,62 @@
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
 use meshweft::Limits;
-use meshweft::operations::{self, Camera, CameraPath};
+use meshweft::operations::{self, Camera};
 
 use crate::usage::Usage;
 
-/// A path by its name, or the cameras of a file with the file's name.
-pub(super) fn path(
+/// A path by its name among these, or the cameras of a file with the file's name.
+pub(crate) fn path<P>(
     name: &str,
+    shapes: impl IntoIterator<Item = (&'static str, P)>,
+    given: impl FnOnce(Arc<[Camera]>) -> P,
     size: [u32; 2],
     limits: Limits,
-) -> Result<(CameraPath, Option<PathBuf>)> {
-    let shape = CameraPath::SHAPES.into_iter().find(|it| it.name() == name);
-    if let Some(shape) = shape {
-        return Ok((shape, None));
+) -> Result<(P, Option<PathBuf>)> {
+    let mut names = Vec::new();
+    for (shape_name, shape) in shapes {
+        if shape_name == name {
+            return Ok((shape, None));
+        }
+        names.push(shape_name);
     }
     let file = Path::new(name);
     let is_named_json = file
         .extension()
         .is_some_and(|it| it.eq_ignore_ascii_case("json"));
     if !is_named_json && !file.exists() {
-        let names = CameraPath::SHAPES.map(|it| it.name()).join(", ");
+        let names = names.join(", ");
         let told = format!("--path {name}: give {names}, or a file of cameras (.json)");
         return Err(Usage(told).into());
     }
 
     let cameras = of_file(file, size, limits)?;
-    Ok((CameraPath::Given(cameras.into()), Some(file.to_owned())))
+    Ok((given(cameras.into()), Some(file.to_owned())))
+}
+
+/// One camera of a file.
+pub(crate) fn of_frame(
+    file: &Path,
+    frame: usize,
+    size: [u32; 2],
+    limits: Limits,
+) -> Result<Camera> {
+    let all = of_file(file, size, limits)?;
+    let camera = all.get(frame).ok_or_else(|| {
+        let (file, last) = (file.display(), all.len() - 1);
+        Usage(format!(
+            "--frame {frame}: {file} has the frames 0 to {last}"
+        ))
+    })?;
+    Ok(*camera)
 }
 
 /// The cameras of a file.
-pub(super) fn of_file(file: &Path, size: [u32; 2], limits: Limits) -> Result<Vec<Camera>> {
+fn of_file(file: &Path, size: [u32; 2], limits: Limits) -> Result<Vec<Camera>> {
     let limit = limits.file_bytes;
     let mut bytes = Vec::new();
     let read = fs::File::open(file);
@@ -51,15 +74,15 @@ pub(super) fn of_file(file: &Path, size: [u32; 2], limits: Limits) -> Result<Vec
 }
 
 /// What a path is called: given cameras are those of their file.
-pub(super) fn told(path: &CameraPath, file: Option<&Path>) -> String {
+pub(crate) fn told(name: &str, file: Option<&Path>) -> String {
     match file {
         Some(file) => file.display().to_string(),
-        None => path.name().to_owned(),
+        None => name.to_owned(),
     }
 }
 
 /// A width and a height, such as `800x600`.
-pub(super) fn picture_size(text: &str) -> Result<[u32; 2], String> {
+pub(crate) fn picture_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').map(|(width, height)| [width, height]);
     let side = |text: &str| text.parse().ok().filter(|it| (1..=65535).contains(it));
     let sides = sides.and_then(|[width, height]| Some([side(width)?, side(height)?]));

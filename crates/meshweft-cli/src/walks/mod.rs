@@ -1,0 +1,3 @@
+//! What verbs share that move an eye.
+
+pub(crate) mod cameras;

@@ -1,0 +1,203 @@
+//! `terrain`: files and surfaces of heights, walks over them, and how far these are off.
+
+use crate::{Folder, data_folder};
+
+/// Waves over 65 by 49 places as a grey image, with a place without a height if wanted.
+fn waves_pgm(has_void: bool) -> String {
+    let height = |i: u32| {
+        let [x, y] = [i % 65, i / 65].map(f64::from);
+        let height = 1000.0 + 300.0 * (0.21 * x).sin() * (0.17 * y).cos() + 40.0 * (0.9 * x).sin();
+        match has_void && (30..34).contains(&(i % 65)) && i / 65 == 20 {
+            true => 0,
+            #[expect(clippy::cast_possible_truncation, reason = "below 2000")]
+            #[expect(clippy::cast_sign_loss, reason = "above 0")]
+            false => height as u32,
+        }
+    };
+    let heights: String = (0..65 * 49).map(|i| format!("{}\n", height(i))).collect();
+    format!("P2\n65 49\n65535\n{heights}")
+}
+
+#[test]
+fn heights_become_a_file_and_a_mesh() {
+    let folder = Folder::new("terrain-build");
+    folder.write("waves.pgm", waves_pgm(false));
+    let build = |flags: &[&str]| {
+        let verb = ["terrain", "build", "waves.pgm", "--spacing", "30,20"];
+        folder.run(&[&verb[..], flags].concat())
+    };
+    let run = build(&["-o", "waves.mwt"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    for expected in [
+        "waves.pgm: 65 columns, 49 rows, 30.000 by 20.000 m apart; heights ",
+        "; faces 6144\n",
+        "; read back and compared",
+    ] {
+        assert!(run.out().contains(expected), "{}", run.out());
+    }
+    let bytes = folder.read("waves.mwt");
+    assert!(bytes.starts_with(b"MWTN"));
+    let report = build(&["-o", "waves.mwt", "--json"]).json();
+    assert_eq!(report["command"], "terrain build");
+    assert_eq!(report["bytes"]["after"], bytes.len());
+    assert_eq!(report["terrain"]["faces"], 6144);
+    assert_eq!(folder.read("waves.mwt"), bytes);
+    assert_eq!(build(&["--dry-run", "-o", "no.mwt"]).code(), 0);
+    assert!(!folder.0.join("no.mwt").exists());
+
+    // A surface of the file is that of the heights.
+    let extract = |input: &str, flags: &[&str]| {
+        let spacing: &[&str] = match input {
+            "waves.pgm" => &["--spacing", "30,20", "--quiet"],
+            _ => &[],
+        };
+        folder.run(&[&["terrain", "extract", input], spacing, flags].concat())
+    };
+    let run = extract("waves.mwt", &["--error", "5", "-o", "five.ply"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    for expected in [
+        "waves.mwt -> five.ply: vertices ",
+        " of 6144; no height farther than ",
+    ] {
+        assert!(run.out().contains(expected), "{}", run.out());
+    }
+    assert_eq!(
+        extract("waves.pgm", &["--error", "5", "-o", "own.ply"]).code(),
+        0
+    );
+    assert_eq!(folder.read("own.ply"), folder.read("five.ply"));
+    let all = extract("waves.mwt", &["--error", "0", "-o", "all.obj", "--json"]).json();
+    assert_eq!(
+        (&all["vertices"], &all["faces"], &all["error"]),
+        (&3185.into(), &6144.into(), &0.0.into())
+    );
+    let few = extract("waves.mwt", &["--faces", "300", "-o", "few.glb", "--json"]).json();
+    assert!(few["faces"].as_u64().unwrap() <= 300);
+    folder.write(
+        "eyes.json",
+        r#"{"frames": [{"eye": [0, 2000, 0], "target": [900, 900, 0]}]}"#,
+    );
+    let seen = [
+        "--camera",
+        "eyes.json",
+        "--tolerance",
+        "4",
+        "-o",
+        "seen.glb",
+        "--json",
+    ];
+    let seen = extract("waves.mwt", &seen).json();
+    assert!(seen["faces"].as_u64().unwrap() < 6144);
+}
+
+#[test]
+fn what_is_wrong_with_a_terrain_is_said_before_the_work() {
+    let folder = Folder::new("terrain-refused");
+    folder.write("waves.pgm", waves_pgm(true));
+    folder.write("note.txt", "not heights");
+    folder.write("other.mwt", "mine");
+    let refused = |arguments: &[&str], code: i32, expected: &str| {
+        let run = folder.run(&[&["terrain"], arguments].concat());
+        assert_eq!(run.code(), code, "{}", run.err());
+        assert!(run.err().contains(expected), "{}", run.err());
+    };
+    refused(
+        &["build", "waves.pgm", "-o", "waves.ply"],
+        2,
+        "give the output the ending .mwt",
+    );
+    refused(
+        &["build", "waves.pgm", "-o", "other.mwt"],
+        2,
+        "this file is not one that --output writes",
+    );
+    assert_eq!(folder.read("other.mwt"), b"mine");
+    refused(
+        &["build", "note.txt", "-o", "new.mwt"],
+        1,
+        "note.txt: this is neither a height map nor a .mwt file",
+    );
+    refused(&["build", "none.hgt", "-o", "new.mwt"], 1, "none.hgt");
+    refused(
+        &["build", "waves.pgm", "waves.pgm", "-o", "new.mwt"],
+        1,
+        "does not say where it lies",
+    );
+    refused(
+        &["extract", "waves.pgm", "--error", "-1", "-o", "new.ply"],
+        2,
+        "--error -1: give a number of metres",
+    );
+    refused(
+        &["extract", "none.mwt", "--error", "1", "-o", "new.txt"],
+        1,
+        "the name of a new file says its format",
+    );
+    refused(
+        &["extract", "waves.pgm", "--error", "1", "-o", "waves.pgm"],
+        2,
+        "choose another name",
+    );
+    folder.write("there.ply", "mine");
+    refused(
+        &["extract", "none.mwt", "--error", "1", "-o", "there.ply"],
+        1,
+        "there.ply",
+    );
+    assert_eq!(folder.read("there.ply"), b"mine");
+    refused(
+        &["extract", "waves.pgm", "--faces", "5", "-o", "new.ply"],
+        1,
+        "there is no surface of 5 faces or fewer",
+    );
+    assert!(!folder.0.join("new.mwt").exists() && !folder.0.join("new.ply").exists());
+
+    // A place without a height is a hole, or filled.
+    let build = |flags: &[&str]| {
+        let verb = [
+            "terrain",
+            "build",
+            "waves.pgm",
+            "--no-data",
+            "0",
+            "--json",
+            "-o",
+            "w.mwt",
+        ];
+        folder.run(&[&verb[..], flags].concat()).json()
+    };
+    let (holes, filled) = (build(&[]), build(&["--fill"]));
+    assert_eq!((&holes["voids"], &holes["filled"]), (&4.into(), &0.into()));
+    assert_eq!(
+        (&filled["voids"], &filled["filled"]),
+        (&4.into(), &4.into())
+    );
+    assert!(holes["terrain"]["faces"].as_u64() < filled["terrain"]["faces"].as_u64());
+    refused(
+        &["build", "w.mwt", "-o", "x.mwt"],
+        1,
+        "w.mwt: this is a terrain that was built already",
+    );
+}
+
+#[test]
+fn tiles_are_joined() {
+    let Some(data) = data_folder("tiles_are_joined") else {
+        return;
+    };
+    let folder = Folder::new("terrain-tiles");
+    let tile = |name: &str| data.join("terrain").join(name).display().to_string();
+    let tiles = ["N47W123.hgt.gz", "N47W122.hgt.gz"].map(tile);
+    let verb = ["terrain", "build", &tiles[0], &tiles[1], "-o", "two.mwt"];
+    let run = folder.run(&verb);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    let told = run.out();
+    assert!(
+        told.contains(" and 1 more: 2401 columns, 1201 rows, "),
+        "{told}"
+    );
+    assert!(
+        told.contains("places at which two files disagree: "),
+        "{told}"
+    );
+}
