@@ -1,3 +1,5 @@
 //! What verbs share that move an eye.
 
 pub(crate) mod cameras;
+pub(crate) mod frames;
+pub(crate) mod policy;

@@ -201,3 +201,87 @@ fn tiles_are_joined() {
         "{told}"
     );
 }
+
+#[test]
+fn a_walk_over_a_terrain_is_counted_plotted_and_measured() {
+    let folder = Folder::new("terrain-walk");
+    folder.write("waves.pgm", waves_pgm(false));
+    let build = [
+        "terrain",
+        "build",
+        "waves.pgm",
+        "--spacing",
+        "30,20",
+        "-o",
+        "waves.mwt",
+    ];
+    assert_eq!(folder.run(&build).code(), 0);
+    let walk = |flags: &[&str]| {
+        let verb = ["terrain", "walk", "waves.mwt", "--frames", "50"];
+        folder.run(&[&verb[..], flags].concat())
+    };
+    let run = walk(&["--path", "fly", "--optimum", "--plot", "frames.svg"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    for expected in [
+        "waves.mwt: 65 columns, 49 rows, ",
+        "fly, frames 50 of 1024 x 768, tolerance 1 px; slots 65536, finest first\n",
+        "active vertices ",
+        "ms, level of detail ",
+        "bytes of the file: ",
+        "; inserts: 1.000 times that, 1.000 times the fewest possible, ",
+        "drawn at some time: vertices ",
+    ] {
+        assert!(run.out().contains(expected), "{}", run.out());
+    }
+    let svg = String::from_utf8(folder.read("frames.svg")).unwrap();
+    assert_eq!(svg.matches("<polyline").count(), 7);
+    let report = walk(&["--json", "--path", "straight"]).json();
+    assert_eq!(report["command"], "terrain walk");
+    assert_eq!(report["frames"].as_array().unwrap().len(), 50);
+    let limited = walk(&["--json", "--limit", "500", "--path", "straight"]).json();
+    assert!(limited["summary"]["vertices"]["worst"].as_u64().unwrap() <= 500);
+    let run = walk(&["--path", "zoom"]);
+    assert_eq!(run.code(), 2);
+    assert!(
+        run.err()
+            .contains("give circle, rotate, straight, fly, or a file"),
+        "{}",
+        run.err()
+    );
+
+    let verify = |flags: &[&str]| {
+        let verb = ["terrain", "verify", "waves.mwt"];
+        folder.run(&[&verb[..], flags].concat())
+    };
+    let source = ["waves.pgm", "--spacing", "30,20"];
+    let run = verify(&[&source[..], &["--path", "circle", "--frames", "5"]].concat());
+    assert_eq!(run.code(), 0, "{}", run.err());
+    assert!(run.out().contains(" 100.0000 "), "{}", run.out());
+    let report = verify(&["--error", "4", "--json"]).json();
+    assert_eq!(
+        (&report["command"], &report["failures"]),
+        (&"terrain verify".into(), &serde_json::json!([]))
+    );
+    assert!(report["worst_metres"].as_f64().unwrap() <= 4.0);
+    assert_eq!(verify(&["--error", "4", "--path", "fly"]).code(), 2);
+
+    // Heights that are others, and those of another grid.
+    folder.write("other.pgm", waves_pgm(true).replace("\n0\n", "\n900\n"));
+    let other = ["other.pgm", "--spacing", "30,20", "--error", "4"];
+    let run = verify(&other);
+    assert_eq!(run.code(), 1);
+    assert!(
+        run.err()
+            .contains("heights farther off than the tolerance: "),
+        "{}",
+        run.err()
+    );
+    let run = verify(&["waves.pgm", "--error", "4"]);
+    assert_eq!(run.code(), 1);
+    assert!(
+        run.err()
+            .contains("the heights to compare with 65 by 49, 1 by 1 metres apart"),
+        "{}",
+        run.err()
+    );
+}

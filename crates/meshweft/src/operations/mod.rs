@@ -6,7 +6,8 @@
 //! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads, `cull_build` adds tables that say which faces need not be
 //! drawn, and `cull_stats` counts what these leave out, `lod_build` makes a file of a mesh with every level of detail,
 //! `lod_extract` takes one mesh from it, `lod_walk` walks around one whose detail follows the eye, and `lod_verify` measures how far
-//! that is off; their reports are values that know their JSON.
+//! that is off; their reports are values that know their JSON. With feature `height-maps`, `terrain_build`, `terrain_extract`, `terrain_walk` and
+//! `terrain_verify` do the same for terrain.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
 //! along a history such as [`collapse_history`] makes. [`StripedMesh`] and [`FacePlanes`] count what of a mesh is drawn, and
 //! what could be left out, from where it is seen.
@@ -107,8 +108,10 @@ pub use striped_mesh::{FacePlanes, StripedMesh, ViewFrom};
 #[cfg(feature = "height-maps")]
 pub use terrain::{
     BuiltTerrain, ExtractedTerrain, TerrainBuildReport, TerrainDetail, TerrainError,
-    TerrainExtractOptions, TerrainExtractReport, TerrainFacts, TerrainHeights, TerrainReadOptions,
-    TerrainSource, terrain_build, terrain_extract,
+    TerrainExtractOptions, TerrainExtractReport, TerrainFacts, TerrainHeights, TerrainPath,
+    TerrainReadOptions, TerrainSource, TerrainVerifyOptions, TerrainVerifyReport,
+    TerrainWalkOptions, TerrainWalkReport, VerifiedSurface, terrain_build, terrain_extract,
+    terrain_verify, terrain_walk,
 };
 #[cfg(feature = "files")]
 pub use walks::{

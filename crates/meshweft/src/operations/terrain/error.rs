@@ -59,6 +59,11 @@ pub enum TerrainError {
         /// Why.
         error: ViewError,
     },
+    /// A terrain over points, where one over a grid is needed.
+    NoGrid {
+        /// The terrain.
+        file: PathBuf,
+    },
     /// The heights to compare with are on another grid.
     OtherGrid {
         /// The terrain.
@@ -110,6 +115,11 @@ impl fmt::Display for TerrainError {
                 file.display()
             ),
             Self::View { frame, error } => write!(f, "frame {frame}: {error}"),
+            Self::NoGrid { file } => write!(
+                f,
+                "{}: this terrain is over points, and only those over grids can be measured: give one that was built of height maps",
+                file.display()
+            ),
             Self::OtherGrid {
                 file,
                 size: [columns, rows],

@@ -181,4 +181,20 @@ impl TerrainSource {
             error,
         })
     }
+
+    /// Reads all that was not read yet.
+    pub(super) fn read_fully(self) -> Result<Self, TerrainError> {
+        let TerrainKind::Stored(stored) = self.kind else {
+            return Ok(self);
+        };
+        let tin = stored.into_tin().map_err(|error| TerrainError::Stored {
+            file: self.file.clone(),
+            frame: None,
+            error,
+        })?;
+        Ok(Self {
+            kind: TerrainKind::Whole(Box::new(tin)),
+            ..self
+        })
+    }
 }

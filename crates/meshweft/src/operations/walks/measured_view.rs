@@ -30,15 +30,18 @@ impl MeasuredView {
         }
     }
 
-    /// Whether a point is in the picture, and its normal faces the eye.
-    pub(in crate::operations) fn sees(&self, point: [f32; 3], normal: [f32; 3]) -> bool {
+    /// Whether a point is in the picture.
+    pub(in crate::operations) fn has_in_picture(&self, point: [f32; 3]) -> bool {
         let way = sub(widened(point), self.eye);
         let [x, y, depth] = self.axes.map(|axis| dot(way, axis));
         let is_inside = |at: f64, half: f64| at.abs() <= half * depth;
-        depth > 0.0
-            && is_inside(x, self.half[0])
-            && is_inside(y, self.half[1])
-            && dot(widened(normal), way) < 0.0
+        depth > 0.0 && is_inside(x, self.half[0]) && is_inside(y, self.half[1])
+    }
+
+    /// Whether a point is in the picture, and its normal faces the eye.
+    pub(in crate::operations) fn sees(&self, point: [f32; 3], normal: [f32; 3]) -> bool {
+        let way = sub(widened(point), self.eye);
+        self.has_in_picture(point) && dot(widened(normal), way) < 0.0
     }
 
     /// How many tolerances a length is where a point is.
