@@ -16,7 +16,7 @@ use crate::usage::Usage;
 
 #[derive(Debug, Args)]
 pub(super) struct Build {
-    /// Height maps: .hgt, .dem, .tif, .png or .pgm files, optionally followed by .gz; several lie beside each other
+    /// Height maps: .hgt, .dem, .tif, .png or .pgm files, several lie beside each other; or points: mesh files, of which all vertices count. Each optionally followed by .gz
     #[arg(value_name = "IN", required = true)]
     inputs: Vec<PathBuf>,
     /// Where to write: a .mwt file
@@ -106,9 +106,21 @@ fn text(report: &TerrainBuildReport, inputs: &str) -> String {
         };
         text += &format!("\nplaces without a height: {}, {holes}", report.voids);
     }
+    if let Some(counts) = &report.points {
+        text += &format!(
+            "\npoints {}; at the place of another one: {}, not finite: {}; vertices that are no points: {}",
+            counts.points, counts.duplicates, counts.not_finite, counts.steiner
+        );
+        if counts.left_out > 0 {
+            text += &format!(
+                "\npoints left out, too near to others for 32-bit positions: {}, by {} m at most from the surface at full detail",
+                counts.left_out, counts.largest_left_out
+            );
+        }
+    }
     if report.disagreeing > 0 {
         text += &format!(
-            "\nplaces at which two files disagree: {}, by {} m at most; the first file's heights are taken",
+            "\nplaces at which two heights disagree: {}, by {} m at most; the first one is taken",
             report.disagreeing, report.largest_disagreement
         );
     }

@@ -25,6 +25,9 @@ pub(super) struct Heights {
     /// A value in height maps that stands for no height
     #[arg(long, allow_negative_numbers = true, value_name = "V")]
     no_data: Option<f64>,
+    /// Which coordinate of points and meshes is the height. With z, x is east and y north; with y, as in outputs, x is east and z south
+    #[arg(long, value_name = "AXIS", value_parser = ["y", "z"], default_value = "y")]
+    up: String,
 }
 
 impl Heights {
@@ -35,6 +38,7 @@ impl Heights {
         options.maps.spacing = self.spacing;
         options.maps.height_scale = self.height_scale;
         options.maps.no_data = self.no_data;
+        options.is_z_up = self.up == "z";
         options
     }
 }

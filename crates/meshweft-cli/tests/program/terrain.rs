@@ -197,7 +197,7 @@ fn tiles_are_joined() {
         "{told}"
     );
     assert!(
-        told.contains("places at which two files disagree: "),
+        told.contains("places at which two heights disagree: "),
         "{told}"
     );
 }

@@ -109,7 +109,7 @@ pub use striped_mesh::{FacePlanes, StripedMesh, ViewFrom};
 pub use terrain::{
     BuiltTerrain, ExtractedTerrain, TerrainBuildReport, TerrainDetail, TerrainError,
     TerrainExtractOptions, TerrainExtractReport, TerrainFacts, TerrainHeights, TerrainPath,
-    TerrainReadOptions, TerrainSource, TerrainVerifyOptions, TerrainVerifyReport,
+    TerrainReadOptions, TerrainSamples, TerrainSource, TerrainVerifyOptions, TerrainVerifyReport,
     TerrainWalkOptions, TerrainWalkReport, VerifiedSurface, terrain_build, terrain_extract,
     terrain_verify, terrain_walk,
 };

@@ -9,7 +9,7 @@ use super::error::TerrainError;
 use super::heights::TerrainHeights;
 use super::source::TerrainFacts;
 use crate::files::{FileErrorKind, Note, Place};
-use crate::lod::quad_tin::QuadTin;
+use crate::lod::quad_tin::{PointCounts, QuadTin};
 use crate::operations::json;
 
 /// What [`terrain_build`] did. The caller may add where it went and how long it took to read.
@@ -36,10 +36,12 @@ pub struct TerrainBuildReport {
     pub voids: usize,
     /// How many of them were filled.
     pub filled: usize,
-    /// Places at which two files have different heights.
+    /// Places at which two files, or two points, have different heights.
     pub disagreeing: usize,
     /// How far these are apart at most, in metres.
-    pub largest_disagreement: f32,
+    pub largest_disagreement: f64,
+    /// What became of points; `None` of height maps.
+    pub points: Option<PointCounts>,
     /// What the readers say, each with its file.
     pub notes: Vec<(PathBuf, Note)>,
 }
@@ -68,11 +70,24 @@ impl TerrainBuildReport {
             ("filled", json!(self.filled)),
             ("disagreeing", json!(self.disagreeing)),
             ("largest_disagreement", json!(self.largest_disagreement)),
+            ("points", json!(self.points.as_ref().map(point_counts))),
             ("notes", notes(&self.notes)),
         ];
         report.extend(members.map(|(name, value)| (name.to_owned(), value)));
         Value::Object(report).to_string()
     }
+}
+
+fn point_counts(counts: &PointCounts) -> Value {
+    json!({
+        "points": counts.points,
+        "not_finite": counts.not_finite,
+        "duplicates": counts.duplicates,
+        "left_out": counts.left_out,
+        "largest_left_out": counts.largest_left_out,
+        "steiner": counts.steiner,
+        "depth": counts.depth,
+    })
 }
 
 /// Notes as JSON, each with its file.
@@ -104,10 +119,10 @@ pub struct BuiltTerrain {
 /// `clock` gives seconds since any time; give `&|| 0.0` where there is no clock.
 ///
 /// # Errors
-/// [`TerrainError::Heights`] if there are no heights, or too many.
+/// [`TerrainError`] if there are no heights, too many, or points on a line.
 ///
 /// # Complexity
-/// That of [`QuadTin::over_grid`].
+/// That of [`QuadTin::over_grid`], or of [`PointHierarchy::over`](crate::lod::quad_tin::PointHierarchy::over).
 ///
 /// ```
 /// use std::io::Cursor;
@@ -128,20 +143,13 @@ pub fn terrain_build(
 ) -> Result<BuiltTerrain, TerrainError> {
     let start = clock();
     let file = heights.file();
-    let tin = QuadTin::over_grid(&heights.grid).map_err(|error| {
-        let file = file.clone();
-        TerrainError::Heights { file, error }
-    })?;
+    let (tin, points) = heights.tin()?;
     let build_seconds = clock() - start;
 
-    // What is written later is compared with the hierarchy, so this has to have the heights.
-    let is_same = |(vertex, height): (u32, &f32)| {
-        let own = tin.height(vertex).map(f32::to_bits);
-        own == (!height.is_nan()).then_some(height.to_bits())
+    let (disagreeing, largest_disagreement) = match &points {
+        None => (heights.disagreeing, heights.largest_disagreement.into()),
+        Some(counts) => (counts.disagreeing as usize, counts.largest_disagreement),
     };
-    if !(0..).zip(heights.grid.heights()).all(is_same) {
-        return Err(TerrainError::NotVerified { file });
-    }
     let report = TerrainBuildReport {
         files: heights.files,
         output: None,
@@ -153,8 +161,9 @@ pub fn terrain_build(
         terrain: TerrainFacts::of(&tin),
         voids: heights.voids,
         filled: heights.filled,
-        disagreeing: heights.disagreeing,
-        largest_disagreement: heights.largest_disagreement,
+        disagreeing,
+        largest_disagreement,
+        points,
         notes: heights.notes,
     };
     Ok(BuiltTerrain {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::files::FileError;
 use crate::lod::geometry_cache::GeometryCacheError;
-use crate::lod::quad_tin::QuadTinError;
+use crate::lod::quad_tin::{PointsError, QuadTinError};
 use crate::lod::{HierarchyError, ViewError};
 use crate::operations::walks::WalkOptionError;
 
@@ -17,7 +17,19 @@ pub enum TerrainError {
     Option(WalkOptionError),
     /// A height map cannot be read, or several do not fit together.
     File(FileError),
-    /// A file is neither a height map nor a `.mwt` file.
+    /// There is no surface over the points of a file.
+    Points {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        error: PointsError,
+    },
+    /// A file of points is given together with height maps.
+    Mixed {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A file is neither a height map, nor has it points, nor is it a `.mwt` file.
     NoTerrain {
         /// The file.
         file: PathBuf,
@@ -91,8 +103,14 @@ impl fmt::Display for TerrainError {
             Self::File(error) => error.fmt(f),
             Self::NoTerrain { file } => write!(
                 f,
-                "{}: this is neither a height map nor a .mwt file: give a .hgt, .dem, .tif, .png or .pgm file, or one that \
-                 `meshweft terrain build` wrote",
+                "{}: this is neither a height map, nor points or a mesh, nor a .mwt file: give a .hgt, .dem, .tif, .png or .pgm \
+                 file, a mesh file such as .ply or .obj, or a file that `meshweft terrain build` wrote",
+                file.display()
+            ),
+            Self::Points { file, error } => write!(f, "{}: {error}", file.display()),
+            Self::Mixed { file } => write!(
+                f,
+                "{}: this file has points, and another one is a height map: build one terrain of height maps and another one of points",
                 file.display()
             ),
             Self::Built { file } => write!(

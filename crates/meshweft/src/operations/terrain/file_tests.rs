@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::build::terrain_build;
 use super::error::TerrainError;
 use super::extract::{TerrainDetail, TerrainExtractOptions, terrain_extract};
-use super::heights::{TerrainHeights, TerrainReadOptions};
+use super::heights::{TerrainHeights, TerrainReadOptions, TerrainSamples};
 use super::source::TerrainSource;
 use crate::height_grid::HeightGrid;
 use crate::limits::Limits;
@@ -176,7 +176,7 @@ fn real_tiles_become_one_terrain() {
     let mut options = TerrainReadOptions::default();
     let heights = TerrainHeights::open(&paths, &options).unwrap();
     assert_eq!(
-        (heights.grid.size(), heights.name.as_str()),
+        (heights.grid().unwrap().size(), heights.name.as_str()),
         ([2401, 2401], "N47W123")
     );
     assert_eq!(
@@ -196,7 +196,55 @@ fn real_tiles_become_one_terrain() {
 
     options.fill_voids = true;
     let filled = TerrainHeights::open(&paths, &options).unwrap();
-    assert_eq!((filled.filled, filled.grid.void_count()), (filled.voids, 0));
-    let error = TerrainHeights::open(&[folder.join("meshes/spot.obj.gz")], &options);
+    let left = filled.grid().unwrap().void_count();
+    assert_eq!((filled.filled, left), (filled.voids, 0));
+    let error = TerrainHeights::open(&[folder.join("index.tsv")], &options);
     assert!(matches!(error, Err(TerrainError::NoTerrain { .. })));
+    let mixed = [tile("N47W123.hgt.gz"), folder.join("meshes/spot.obj.gz")];
+    let error = TerrainHeights::open(&mixed, &options);
+    assert!(matches!(error, Err(TerrainError::Mixed { .. })));
+}
+
+#[test]
+fn vertices_of_a_mesh_are_points_of_a_terrain() {
+    let Some(folder) = data_folder::folder() else {
+        return;
+    };
+    let paths = [folder.join("meshes/mountain.obj.gz")];
+    for is_z_up in [false, true] {
+        let options = TerrainReadOptions {
+            is_z_up,
+            ..TerrainReadOptions::default()
+        };
+        let heights = TerrainHeights::open(&paths, &options).unwrap();
+        let TerrainSamples::Points(points) = heights.samples.clone() else {
+            panic!("a mesh is points");
+        };
+        let mut built = terrain_build(heights, &|| 0.0).unwrap();
+        let counts = built.report.points.unwrap();
+        assert_eq!(counts.points as usize, points.len());
+        let kept = counts.points - counts.duplicates - counts.not_finite - counts.left_out;
+        let vertices = (kept + counts.steiner) as usize;
+        assert_eq!(built.report.terrain.vertices, vertices);
+
+        // All that were kept come back.
+        let mut file = Cursor::new(Vec::new());
+        built.write(&mut file).unwrap();
+        let all = TerrainExtractOptions::new(TerrainDetail::Error(0.0));
+        let extracted = terrain_extract(stored(&file.into_inner()), &all).unwrap();
+        assert_eq!(extracted.mesh.vertex_count(), vertices);
+        let bits = |it: &[f32; 3]| it.map(f32::to_bits);
+        let found: std::collections::BTreeSet<[u32; 3]> =
+            extracted.mesh.positions().iter().map(bits).collect();
+        let missing = points.iter().filter(|&it| !found.contains(&bits(it)));
+        let left_out = counts.duplicates + counts.not_finite + counts.left_out;
+        assert!(missing.count() <= left_out as usize);
+    }
+    let line = vec![[0.0; 3], [1.0, 5.0, 1.0], [2.0, 7.0, 2.0]];
+    let error = terrain_build(TerrainHeights::of_points("line", line), &|| 0.0).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("line: seen from above, all points are on one line")
+    );
 }

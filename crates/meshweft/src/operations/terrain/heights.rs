@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 
 use super::error::TerrainError;
 use crate::files::height_map::{HeightMap, HeightMapOptions};
-use crate::files::{FileErrorKind, Note, Place};
+use crate::files::{Document, FileErrorKind, Note, Place, ReadOptions};
 use crate::height_grid::HeightGrid;
-use crate::lod::quad_tin::QuadTin;
+use crate::index::index32;
+use crate::lod::quad_tin::{PointCounts, PointHierarchy, QuadTin};
+use crate::operations::plain_meshes::plain_meshes;
 use crate::operations::walks::is_stored;
 
 /// How height maps become heights.
@@ -18,6 +20,18 @@ pub struct TerrainReadOptions {
     pub maps: HeightMapOptions,
     /// Fill voids from their surroundings; they are holes otherwise.
     pub fill_voids: bool,
+    /// Of points and meshes, z is up and y north. Otherwise y is up and z south, as in what is written.
+    pub is_z_up: bool,
+}
+
+/// Heights above a grid, or above any places.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum TerrainSamples {
+    /// Of height maps.
+    Grid(HeightGrid),
+    /// Points, x east, y up, z south.
+    Points(Vec<[f32; 3]>),
 }
 
 /// Heights of one file, or of several that lie beside each other, and what was found in them.
@@ -25,7 +39,7 @@ pub struct TerrainReadOptions {
 #[non_exhaustive]
 pub struct TerrainHeights {
     /// All of them.
-    pub grid: HeightGrid,
+    pub samples: TerrainSamples,
     /// What the terrain is called.
     pub name: String,
     /// The files.
@@ -45,28 +59,38 @@ pub struct TerrainHeights {
 }
 
 impl TerrainHeights {
-    /// Reads height maps, and joins them if there are several.
+    /// Reads height maps, and joins them if there are several; or files of points or meshes, of which all vertices count.
     ///
     /// # Errors
-    /// [`TerrainError`]: a file is no height map or cannot be read, or the files do not fit together.
+    /// [`TerrainError`]: a file is of no known format or cannot be read, or the files do not fit together.
     ///
     /// # Complexity
-    /// Time O(bytes + places). Space: the heights of the files and those of the whole, 4 bytes a place.
+    /// Time O(bytes + places). Space: the heights of the files and those of the whole, 4 bytes a place, 12 a point.
     pub fn open(paths: &[PathBuf], options: &TerrainReadOptions) -> Result<Self, TerrainError> {
+        if let Some(path) = paths
+            .iter()
+            .find(|it| is_stored(it, "mwt", QuadTin::begins_bytes))
+        {
+            let file = path.clone();
+            return Err(TerrainError::Built { file });
+        }
+        let is_map = |path: &PathBuf| !path.exists() || HeightMap::is_height_map(path);
+        match paths.iter().position(|it| !is_map(it)) {
+            None => Self::open_maps(paths, options),
+            Some(_) if !paths.iter().any(is_map) => Self::open_points(paths, options),
+            Some(other) => {
+                let file = paths[other].clone();
+                Err(TerrainError::Mixed { file })
+            }
+        }
+    }
+
+    fn open_maps(paths: &[PathBuf], options: &TerrainReadOptions) -> Result<Self, TerrainError> {
         let (mut maps, mut notes, mut bytes) = (Vec::new(), Vec::new(), 0);
         for path in paths {
-            if is_stored(path, "mwt", QuadTin::begins_bytes) {
-                let file = path.clone();
-                return Err(TerrainError::Built { file });
-            }
-            // Here is the place for files of points.
-            if path.exists() && !HeightMap::is_height_map(path) {
-                let file = path.clone();
-                return Err(TerrainError::NoTerrain { file });
-            }
             let mut map = HeightMap::open(path, &options.maps)?;
             notes.extend(map.notes.drain(..).map(|note| (path.clone(), note)));
-            bytes += fs::metadata(path).map_or(0, |it| it.len());
+            bytes += size_of(path);
             maps.push(map);
         }
 
@@ -78,18 +102,54 @@ impl TerrainHeights {
         })?;
         let joined_notes = joined.map.notes.iter();
         notes.extend(joined_notes.map(|note| (first.to_owned(), note.clone())));
-        let mut heights = Self::of_grid(&name_of(first), joined.map.grid);
-        heights.filled = match options.fill_voids {
-            true => heights.grid.fill_voids(),
+        let mut grid = joined.map.grid;
+        let voids = grid.void_count();
+        let filled = match options.fill_voids {
+            true => grid.fill_voids(),
             false => 0,
         };
         Ok(Self {
+            voids,
+            filled,
             files: paths.to_vec(),
             bytes,
             disagreeing: joined.disagreeing,
             largest_disagreement: joined.largest_difference,
             notes,
-            ..heights
+            ..Self::new(&name_of(first), TerrainSamples::Grid(grid))
+        })
+    }
+
+    fn open_points(paths: &[PathBuf], options: &TerrainReadOptions) -> Result<Self, TerrainError> {
+        let (mut points, mut notes, mut bytes) = (Vec::new(), Vec::new(), 0);
+        for path in paths {
+            let read = ReadOptions {
+                limits: options.maps.limits,
+                ..ReadOptions::default()
+            };
+            let document = Document::open(path, read).map_err(|error| match error.kind {
+                FileErrorKind::UnknownFormat => TerrainError::NoTerrain { file: path.clone() },
+                _ => error.into(),
+            })?;
+            let own_notes = document.notes().iter();
+            notes.extend(own_notes.map(|note| (path.clone(), note.clone())));
+            for (_, mesh) in plain_meshes(&document)? {
+                points.extend_from_slice(mesh.positions());
+            }
+            bytes += size_of(path);
+        }
+        if options.is_z_up {
+            for point in &mut points {
+                let [x, y, z] = *point;
+                *point = [x, z, -y];
+            }
+        }
+        let first = paths.first().map_or(Path::new(""), |it| it.as_path());
+        Ok(Self {
+            files: paths.to_vec(),
+            bytes,
+            notes,
+            ..Self::new(&name_of(first), TerrainSamples::Points(points))
         })
     }
 
@@ -98,14 +158,75 @@ impl TerrainHeights {
     pub fn of_grid(name: &str, grid: HeightGrid) -> Self {
         Self {
             voids: grid.void_count(),
-            grid,
+            ..Self::new(name, TerrainSamples::Grid(grid))
+        }
+    }
+
+    /// Points that are from no file: x east, y up, z south.
+    #[must_use]
+    pub fn of_points(name: &str, points: Vec<[f32; 3]>) -> Self {
+        Self::new(name, TerrainSamples::Points(points))
+    }
+
+    fn new(name: &str, samples: TerrainSamples) -> Self {
+        Self {
+            samples,
             name: name.to_owned(),
             files: Vec::new(),
             bytes: 0,
+            voids: 0,
             filled: 0,
             disagreeing: 0,
             largest_disagreement: 0.0,
             notes: Vec::new(),
+        }
+    }
+
+    /// The grid, if it is one.
+    #[must_use]
+    pub fn grid(&self) -> Option<&HeightGrid> {
+        match &self.samples {
+            TerrainSamples::Grid(grid) => Some(grid),
+            TerrainSamples::Points(_) => None,
+        }
+    }
+
+    /// The hierarchy of these heights, compared with them; and what became of points.
+    pub(super) fn tin(&self) -> Result<(QuadTin, Option<PointCounts>), TerrainError> {
+        let file = || self.file();
+        match &self.samples {
+            TerrainSamples::Grid(grid) => {
+                let tin = QuadTin::over_grid(grid);
+                let tin = tin.map_err(|error| TerrainError::Heights {
+                    file: file(),
+                    error,
+                })?;
+                let is_same = |(vertex, height): (u32, &f32)| {
+                    let own = tin.height(vertex).map(f32::to_bits);
+                    own == (!height.is_nan()).then_some(height.to_bits())
+                };
+                match (0..).zip(grid.heights()).all(is_same) {
+                    true => Ok((tin, None)),
+                    false => Err(TerrainError::NotVerified { file: file() }),
+                }
+            }
+            TerrainSamples::Points(points) => {
+                let hierarchy = PointHierarchy::over(points);
+                let hierarchy = hierarchy.map_err(|error| TerrainError::Points {
+                    file: file(),
+                    error,
+                })?;
+                let is_same = |vertex: u32| {
+                    let source = hierarchy.source(vertex).map(|it| points[it as usize]);
+                    let own = hierarchy.position(vertex).map(f32::to_bits);
+                    source.is_none_or(|it| it.map(f32::to_bits) == own)
+                };
+                if !(0..index32(hierarchy.vertex_count())).all(is_same) {
+                    return Err(TerrainError::NotVerified { file: file() });
+                }
+                let counts = *hierarchy.counts();
+                Ok((hierarchy.into(), Some(counts)))
+            }
         }
     }
 
@@ -116,6 +237,11 @@ impl TerrainHeights {
             None => PathBuf::from(&self.name),
         }
     }
+}
+
+/// The size of a file that could be read.
+fn size_of(path: &Path) -> u64 {
+    fs::metadata(path).map_or(0, |it| it.len())
 }
 
 /// The name of a file, without its endings.

@@ -27,7 +27,7 @@ pub use error::TerrainError;
 pub use extract::{
     ExtractedTerrain, TerrainDetail, TerrainExtractOptions, TerrainExtractReport, terrain_extract,
 };
-pub use heights::{TerrainHeights, TerrainReadOptions};
+pub use heights::{TerrainHeights, TerrainReadOptions, TerrainSamples};
 pub use paths::TerrainPath;
 pub use source::{TerrainFacts, TerrainSource};
 pub use verify::terrain_verify;

@@ -101,13 +101,10 @@ impl TerrainSource {
     /// The hierarchy of heights.
     ///
     /// # Errors
-    /// [`TerrainError::Heights`] if there are none, or too many.
+    /// [`TerrainError`] if there are none, too many, or points on a line.
     pub fn of_heights(heights: TerrainHeights) -> Result<Self, TerrainError> {
         let file = heights.file();
-        let tin = QuadTin::over_grid(&heights.grid).map_err(|error| {
-            let file = file.clone();
-            TerrainError::Heights { file, error }
-        })?;
+        let (tin, _) = heights.tin()?;
         Ok(Self {
             file,
             name: heights.name,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::error::TerrainError;
 use super::full_grid::FullGrid;
-use super::heights::TerrainHeights;
+use super::heights::{TerrainHeights, TerrainSamples};
 use super::source::{TerrainFacts, TerrainSource};
 use super::verify_options::TerrainVerifyOptions;
 use super::verify_report::{TerrainVerifyReport, VerifiedSurface};
@@ -55,8 +55,12 @@ pub fn terrain_verify(
     let (grid, compared) = match heights {
         None => (own_grid(&source)?, Vec::new()),
         Some(heights) => {
+            let file = heights.file();
             notes.extend(heights.notes);
-            (heights.grid, heights.files)
+            match heights.samples {
+                TerrainSamples::Grid(grid) => (grid, heights.files),
+                TerrainSamples::Points(_) => return Err(TerrainError::NoGrid { file }),
+            }
         }
     };
     check_grid(&source.file, &terrain, &grid)?;

@@ -240,16 +240,16 @@ fn a_real_terrain_is_as_near_as_it_says() {
     };
     let paths = [folder.join("terrain/N47W122.hgt.gz")];
     let tile = TerrainHeights::open(&paths, &TerrainReadOptions::default()).unwrap();
-    let columns = tile.grid.size()[0] as usize;
+    let tile = tile.grid().unwrap();
+    let columns = tile.size()[0] as usize;
     let part: Vec<f32> = tile
-        .grid
         .heights()
         .chunks_exact(columns)
         .take(501)
         .flat_map(|row| &row[..501])
         .copied()
         .collect();
-    let grid = HeightGrid::new([501, 501], tile.grid.spacing(), part).unwrap();
+    let grid = HeightGrid::new([501, 501], tile.spacing(), part).unwrap();
     for error in [10.0, 50.0] {
         let options = TerrainVerifyOptions {
             error: Some(error),
