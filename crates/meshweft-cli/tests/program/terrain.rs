@@ -115,7 +115,7 @@ fn what_is_wrong_with_a_terrain_is_said_before_the_work() {
     refused(
         &["build", "note.txt", "-o", "new.mwt"],
         1,
-        "note.txt: this is neither a height map nor a .mwt file",
+        "note.txt: this is neither a height map, nor points or a mesh, nor a .mwt file",
     );
     refused(&["build", "none.hgt", "-o", "new.mwt"], 1, "none.hgt");
     refused(
@@ -281,6 +281,39 @@ fn a_walk_over_a_terrain_is_counted_plotted_and_measured() {
     assert!(
         run.err()
             .contains("the heights to compare with 65 by 49, 1 by 1 metres apart"),
+        "{}",
+        run.err()
+    );
+}
+
+#[test]
+fn vertices_of_a_mesh_become_a_terrain() {
+    let folder = Folder::new("terrain-points");
+    // z up: the corners of a square, and a point 3 above its middle.
+    folder.write(
+        "hill.obj",
+        "v 0 0 1\nv 4 0 1\nv 0 4 1\nv 4 4 1\nv 2 2 4\nf 1 2 3\n",
+    );
+    let build = [
+        "terrain", "build", "hill.obj", "-o", "hill.mwt", "--up", "z", "--json",
+    ];
+    let report = folder.run(&build).json();
+    assert_eq!(report["points"]["points"], 5);
+    assert_eq!(report["terrain"]["faces"], 4);
+    assert_eq!(report["terrain"]["heights"], serde_json::json!([1.0, 4.0]));
+    let extract = [
+        "terrain", "extract", "hill.mwt", "--error", "0", "-o", "all.obj", "--json",
+    ];
+    assert_eq!(folder.run(&extract).json()["vertices"], 5);
+    let all = String::from_utf8(folder.read("all.obj")).unwrap();
+    assert!(all.contains("v 2 4 -2"), "{all}");
+    let walk = ["terrain", "walk", "hill.mwt", "--frames", "5", "--json"];
+    assert_eq!(folder.run(&walk).json()["frame_count"], 5);
+    // y is up otherwise, and these points are on a line then.
+    folder.write("line.obj", "v 0 0 1\nv 4 0 1\nv 8 4 1\nf 1 2 3\n");
+    let run = folder.run(&["terrain", "build", "line.obj", "-o", "line.mwt"]);
+    assert!(
+        run.err().contains("all points are on one line"),
         "{}",
         run.err()
     );
