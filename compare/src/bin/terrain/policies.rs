@@ -8,6 +8,8 @@ use meshweft::lod::Camera;
 use meshweft::lod::geometry_cache::RecordedPath;
 use meshweft::lod::quad_tin::{QuadTin, TinSurface};
 
+use crate::{SIDE, SPACING};
+
 /// So that slots are scarce.
 const TOLERANCE: f64 = 2.0;
 const FRAMES: usize = 3000;
@@ -40,7 +42,7 @@ fn recorded(tin: &QuadTin, path: &str) -> Result<RecordedPath, String> {
     let mut recorded = RecordedPath::new(tin.vertex_count());
     let mut surface = TinSurface::default();
     for frame in 0..FRAMES {
-        let view = camera(tin, path, frame as f64 / FRAMES as f64).view(TOLERANCE);
+        let view = camera(path, frame as f64 / FRAMES as f64).view(TOLERANCE);
         tin.draw(&view.map_err(|it| it.to_string())?, &mut surface);
         let active: Vec<u32> = surface.faces().iter().flat_map(|it| it.1).collect();
         recorded.push_active(&active).map_err(|it| it.to_string())?;
@@ -49,9 +51,9 @@ fn recorded(tin: &QuadTin, path: &str) -> Result<RecordedPath, String> {
 }
 
 /// A camera of a path, by the part of it that lies behind: eyes in metres above 0.
-fn camera(tin: &QuadTin, path: &str, done: f64) -> Camera {
+fn camera(path: &str, done: f64) -> Camera {
     let a = TAU * done;
-    let width = f64::from(tin.size()[0] - 1) * tin.spacing()[0];
+    let width = (SIDE - 1) as f64 * SPACING;
     let (eye, ahead) = match path {
         "A" => (
             [0.25 * width * a.cos(), 3000.0, 0.25 * width * a.sin()],
