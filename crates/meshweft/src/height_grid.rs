@@ -41,7 +41,7 @@ pub enum HeightGridError {
         /// Columns and rows.
         size: [u32; 2],
     },
-    /// The distance of columns or rows is not finite or not above 0.
+    /// The distance of columns or rows is not above 0, or so large that positions are not finite.
     #[non_exhaustive]
     Spacing {
         /// Of columns and of rows.
@@ -74,7 +74,7 @@ impl fmt::Display for HeightGridError {
             ),
             Self::Spacing { spacing: [x, z] } => write!(
                 f,
-                "columns {x} and rows {z} metres apart: give finite distances above 0"
+                "columns {x} and rows {z} metres apart: give distances above 0, with which positions fit in 32-bit numbers"
             ),
             Self::Infinite {
                 place: [column, row],
@@ -105,7 +105,7 @@ impl HeightGrid {
         if !size.iter().all(|it| (2..=Self::MOST).contains(it)) {
             return Err(HeightGridError::Size { size });
         }
-        if !spacing.iter().all(|&it| it > 0.0 && it.is_finite()) {
+        if !is_spacing(size, spacing) {
             return Err(HeightGridError::Spacing { spacing });
         }
         if heights.len() != columns as usize * rows as usize {
@@ -187,6 +187,16 @@ impl HeightGrid {
     }
 }
 
+/// Whether distances of columns and rows are above 0, and all places of a grid of this size have finite positions.
+pub(crate) fn is_spacing(size: [u32; 2], spacing: [f64; 2]) -> bool {
+    let last = size.map(|it| it.max(1) - 1);
+    let is_above_0 = spacing.iter().all(|&it| it > 0.0);
+    is_above_0
+        && horizontal(size, spacing, last[0], last[1])
+            .iter()
+            .all(|it| it.is_finite())
+}
+
 /// x and z of a place of a grid of this size and spacing.
 #[expect(
     clippy::cast_possible_truncation,
@@ -216,7 +226,7 @@ mod tests {
             let found = error(size, metre, vec![0.0; 2]);
             assert_eq!(found, HeightGridError::Size { size });
         }
-        for spacing in [[0.0, 1.0], [1.0, f64::INFINITY], [-1.0, 1.0]] {
+        for spacing in [[0.0, 1.0], [1.0, f64::INFINITY], [-1.0, 1.0], [1e39, 1.0]] {
             let found = error([2, 2], spacing, vec![0.0; 4]);
             assert_eq!(found, HeightGridError::Spacing { spacing });
         }

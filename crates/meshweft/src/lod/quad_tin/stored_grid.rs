@@ -12,7 +12,7 @@ use super::grid::{BLOCK_NODES, GridNode, GridTin};
 use super::rounded::LengthScale;
 use super::stored_tree::{StoredTree, check_count};
 use crate::bits::{DecodeError, varint};
-use crate::height_grid::HeightGrid;
+use crate::height_grid::{HeightGrid, is_spacing};
 use crate::limits::Limits;
 use crate::lod::fields::FieldReader;
 
@@ -46,7 +46,7 @@ impl StoredTree for GridTin {
         let places = u64::from(size[0]) * u64::from(size[1]);
         check_count::<Self>(reader, places, MOST_PLACES, file_length, limits)?;
         let spacing = [reader.f64()?, reader.f64()?];
-        if !spacing.iter().all(|&it| it > 0.0 && it.is_finite()) {
+        if !is_spacing(size, spacing) {
             return Err(reader.damaged());
         }
         let mut scales = [LengthScale::up_to(1.0); 2];
