@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Args;
 use meshweft::files::ReadOptions;
 use meshweft::operations::{
@@ -12,11 +12,11 @@ use meshweft::operations::{
 
 use crate::run::arguments::Size;
 use crate::run::output::{self, Report};
-use crate::run::side_file::{PLOT, PendingFile};
 use crate::run::watch::Watch;
 use crate::usage::Usage;
 use crate::walks::cameras;
 use crate::walks::frames::WalkedFrames;
+use crate::walks::plot;
 use crate::walks::policy::Policy;
 
 #[derive(Debug, Args)]
@@ -93,11 +93,13 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
         limits,
     )?;
     if let Some(path) = &arguments.plot {
-        PLOT.check_no_mesh(path, [arguments.input.as_path()])?;
-        if let Some(cameras) = &options.camera_file {
-            PLOT.check_other(path, cameras, "--path")?;
-        }
-        PLOT.check(path, arguments.force)?;
+        let inputs = [arguments.input.as_path()];
+        plot::check(
+            path,
+            inputs,
+            options.camera_file.as_deref(),
+            arguments.force,
+        )?;
     }
 
     let mut reading = ReadOptions::default();
@@ -114,9 +116,7 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
     let notes = output::note_lines(&report.file, &report.notes);
     arguments.report.notes(&notes)?;
     if let Some(path) = &arguments.plot {
-        let written =
-            PendingFile::new(path, report_of(&report).svg()).and_then(PendingFile::commit);
-        written.with_context(|| path.display().to_string())?;
+        plot::write(path, &report_of(&report))?;
     }
     Ok(())
 }

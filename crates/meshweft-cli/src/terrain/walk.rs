@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Args;
 use meshweft::operations::{
     self, EvictionPolicy, TerrainPath, TerrainSource, TerrainWalkOptions, TerrainWalkReport,
@@ -12,11 +12,11 @@ use meshweft::operations::{
 use super::heights::{self, Heights};
 use crate::run::arguments::Size;
 use crate::run::output::Report;
-use crate::run::side_file::{PLOT, PendingFile};
 use crate::run::watch::Watch;
 use crate::usage::Usage;
 use crate::walks::cameras;
 use crate::walks::frames::WalkedFrames;
+use crate::walks::plot;
 use crate::walks::policy::Policy;
 
 #[derive(Debug, Args)]
@@ -95,11 +95,13 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
         limits,
     )?;
     if let Some(path) = &arguments.plot {
-        PLOT.check_no_mesh(path, arguments.inputs.iter().map(PathBuf::as_path))?;
-        if let Some(cameras) = &options.camera_file {
-            PLOT.check_other(path, cameras, "--path")?;
-        }
-        PLOT.check(path, arguments.force)?;
+        let inputs = arguments.inputs.iter().map(PathBuf::as_path);
+        plot::check(
+            path,
+            inputs,
+            options.camera_file.as_deref(),
+            arguments.force,
+        )?;
     }
 
     let reading = arguments.heights.options(&arguments.limits);
@@ -116,9 +118,7 @@ pub(super) fn run(arguments: &Walk) -> Result<()> {
         .report
         .notes(&heights::note_lines(&report.notes))?;
     if let Some(path) = &arguments.plot {
-        let svg = frames_of(&report).svg();
-        let written = PendingFile::new(path, svg).and_then(PendingFile::commit);
-        written.with_context(|| path.display().to_string())?;
+        plot::write(path, &frames_of(&report))?;
     }
     Ok(())
 }

@@ -2,4 +2,5 @@
 
 pub(crate) mod cameras;
 pub(crate) mod frames;
+pub(crate) mod plot;
 pub(crate) mod policy;

@@ -32,6 +32,19 @@ pub(crate) fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
+/// The smallest `f32` that is not below a number.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounded up where it was rounded down"
+)]
+pub(crate) fn rounded_up(number: f64) -> f32 {
+    let nearest = number as f32;
+    match f64::from(nearest) < number {
+        true => nearest.next_up(),
+        false => nearest,
+    }
+}
+
 /// The box around some points; those that are not finite do not count.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bounds {

@@ -2,7 +2,7 @@
 
 use crate::culling::eye::Eye;
 use crate::geometry::Ball;
-use crate::geometry::double::{add, cross, dot, scaled, sub, widened};
+use crate::geometry::double::{add, cross, dot, rounded_up, scaled, sub, widened};
 
 /// What of a few faces is known from anywhere: if an eye is in the cone that opens from `apex` against `axis`, none of them is a
 /// front face.
@@ -233,13 +233,4 @@ fn narrowed(point: [f64; 3]) -> [f32; 3] {
         reason = "what is stored is measured"
     )]
     point.map(|x| x as f32)
-}
-
-fn rounded_up(x: f64) -> f32 {
-    #[expect(clippy::cast_possible_truncation, reason = "rounded to the nearest")]
-    let near = x as f32;
-    match f64::from(near) < x {
-        true => near.next_up(),
-        false => near,
-    }
 }

@@ -3,7 +3,7 @@
 use super::deviation::NearestFaces;
 use super::hierarchy::HierarchyNode;
 use super::links::Edge;
-use crate::geometry::double::{add, cross, dot, scaled, sub, widened};
+use crate::geometry::double::{add, cross, dot, rounded_up, scaled, sub, widened};
 use crate::index::index32;
 use crate::lod::cone::PackedCone;
 use crate::progressive::{Collapse, ProgressiveMesh};
@@ -285,17 +285,6 @@ impl<'a> Replay<'a> {
 /// A radius, larger by more than what rounding may do to a test.
 fn with_room(radius: f64) -> f32 {
     rounded_up(radius * (1.0 + 1e-6))
-}
-
-/// The least `f32` that is not below a number.
-fn rounded_up(number: f64) -> f32 {
-    #[expect(clippy::cast_possible_truncation, reason = "rounded up right after")]
-    let near = number as f32;
-    if f64::from(near) < number {
-        near.next_up()
-    } else {
-        near
-    }
 }
 
 /// How many points have faces that are not one fan.

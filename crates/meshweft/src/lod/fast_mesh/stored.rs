@@ -216,7 +216,7 @@ impl Head {
         let faces = reader.below(1 + slots)?;
         let mut ball = [0.0; 4];
         for number in &mut ball {
-            *number = f64::from_le_bytes(reader.bytes()?);
+            *number = reader.f64()?;
         }
         let full = FullDetail::from_numbers(faces, ball);
         let full = full.ok_or_else(|| reader.damaged())?;

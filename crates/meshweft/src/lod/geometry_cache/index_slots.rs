@@ -111,7 +111,7 @@ impl IndexSlots {
         }
     }
 
-    /// Room for so many faces more, with the next numbers.
+    /// Room for this number of faces more, with the next numbers.
     pub fn grow(&mut self, faces: usize) {
         self.places.resize(self.places.len() + faces, NONE);
     }

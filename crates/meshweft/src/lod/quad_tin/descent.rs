@@ -1,6 +1,7 @@
 //! Which triangles are drawn: one way down from the coarsest, without any list of what depends on what.
 
 use super::triangle::{BisectionTree, Detail, NodeBound, TinTriangle};
+use crate::lod::view::CameraView;
 
 /// The faces of a surface, in the order of a Sierpiński curve: each has a side in common with the one before, but where the
 /// surface has holes.
@@ -30,6 +31,17 @@ impl TinSurface {
         self.missing.clear();
         self.largest_error = 0.0;
     }
+}
+
+/// Draws what a view needs.
+pub(super) fn draw<T: BisectionTree>(tree: &T, view: &CameraView, surface: &mut TinSurface) {
+    let needs = |_, bound: &NodeBound| view.needs(&bound.detail());
+    Descent {
+        tree,
+        needs,
+        surface,
+    }
+    .run();
 }
 
 /// How often a triangle is halved at most, more than in any hierarchy that is built.

@@ -173,7 +173,8 @@ impl BisectionTree for GridTin {
     #[inline]
     fn detail(&self, triangle: &TinTriangle) -> Detail {
         let square = &self.blocks.square;
-        if !square.is_inside(triangle) && square.is_outside(triangle) {
+        let is_inside = square.is_inside(triangle);
+        if !is_inside && square.is_outside(triangle) {
             return Detail::Outside;
         }
         if triangle.split == NONE {
@@ -187,7 +188,7 @@ impl BisectionTree for GridTin {
             Err(block) => Detail::Missing(block),
             Ok(node) if node.error & !VOID == INFINITE => Detail::Crossing,
             // A file that someone made up may have any error there.
-            Ok(_) if !square.is_inside(triangle) => Detail::Crossing,
+            Ok(_) if !is_inside => Detail::Crossing,
             Ok(node) => {
                 let flags = [node.error, node.radius][usize::from(triangle.side)];
                 Detail::Inside(NodeBound {

@@ -118,7 +118,7 @@ impl GridSquare {
         ]
     }
 
-    /// What is cut at a vertex that is no corner of the square.
+    /// What is cut at a vertex other than the corners of the square.
     pub(super) fn diamond(&self, middle: u32) -> Diamond {
         let [column, row] = place(middle);
         let level = self.level([column, row]);

@@ -1,9 +1,8 @@
 //! Errors and balls that contain those below.
 
 use super::points::PointNode;
-use super::rounded::rounded_up;
 use super::triangle::NONE;
-use crate::geometry::double::{dot, sub, widened};
+use crate::geometry::double::{dot, rounded_up, sub, widened};
 
 /// Makes each vertex as bad and as far as any below it. `apexes` are those of the triangles that each vertex cuts; a vertex comes
 /// after its apexes.

@@ -7,9 +7,9 @@ use super::point_input::{CheckedPoints, MOST_VERTICES, PointCounts, PointsError}
 use super::point_lists::{ListRange, ListedPoint, PointLists};
 use super::point_places::NumberSpacing;
 use super::points::{PointHierarchy, PointNode, ROOTS, UnreadPoints};
-use super::rounded::rounded_up;
 use super::signs::turn;
 use super::triangle::NONE;
+use crate::geometry::double::rounded_up;
 use crate::index::index32;
 use crate::progress::Progress;
 

@@ -1,6 +1,6 @@
 //! Surfaces over points, as over a grid.
 
-use super::descent::{Descent, TinSurface};
+use super::descent::{Descent, TinSurface, draw};
 use super::extent::TinExtent;
 use super::limited::{TinLimit, draw_within};
 use super::point_input::PointCounts;
@@ -72,13 +72,7 @@ impl PointHierarchy {
     /// # Complexity
     /// Time and space O(faces).
     pub fn draw(&self, view: &CameraView, surface: &mut TinSurface) {
-        let needs = |_, bound: &NodeBound| view.needs(&bound.detail());
-        Descent {
-            tree: self,
-            needs,
-            surface,
-        }
-        .run();
+        draw(self, view, surface);
     }
 
     /// The surface of limited size that a view needs most: what it sees worst is cut first.

@@ -102,7 +102,7 @@ fn one_point_inside_or_at_a_side_is_cut_at_once() {
         );
         assert_eq!(checked(&points)[0], 0);
     }
-    // Halves that become too narrow are avoided as long as there is room: so many halvings, of the sides beside too.
+    // Halves that become too narrow are avoided as long as there is room. That ends after this number of halvings, of the sides beside too.
     let mut points = square.to_vec();
     points.push([0.0, 3.0, 1e-30]);
     assert!(over(&points).counts.steiner < 80);
@@ -152,7 +152,7 @@ fn what_is_not_finite_is_left_out_and_counted() {
     assert!((counts.largest_disagreement - 2.5).abs() < 1e-3);
 }
 
-/// Stops after so many reports.
+/// Stops after a number of reports.
 #[derive(Debug)]
 struct StopsAfter(std::sync::atomic::AtomicU32);
 

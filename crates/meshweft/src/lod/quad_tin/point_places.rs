@@ -9,7 +9,7 @@ use super::triangle::NONE;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NumberSpacing([f64; 2]);
 
-/// A place needs so many numbers between it and the outer sides, or what is left beside it may be too narrow to be cut again.
+/// A place needs this number of `f32` between it and the outer sides, or what is left beside it may be too narrow to be cut again.
 const ROOM: f64 = 2.0;
 /// So many lines are looked at along each axis for a place.
 const LINES: i64 = 64;

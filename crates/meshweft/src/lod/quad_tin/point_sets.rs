@@ -144,7 +144,7 @@ pub(super) fn on_lines(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     places.collect()
 }
 
-/// A grid of so many points a side, row by row.
+/// A grid with this number of points a side, row by row.
 pub(super) fn grid(side: usize) -> Vec<[f32; 3]> {
     let at = |i: usize| i as f64 / (side - 1) as f64;
     let places = (0..side * side).map(|i| {
@@ -155,7 +155,7 @@ pub(super) fn grid(side: usize) -> Vec<[f32; 3]> {
     places.collect()
 }
 
-/// Makes so many points.
+/// Makes a number of points.
 pub(super) type MakePoints = fn(usize, &mut SplitMix64) -> Vec<[f32; 3]>;
 
 /// Every kind of set in which places between points are exact.

@@ -1,5 +1,7 @@
 //! Lengths in 15 bits, rounded up.
 
+use crate::geometry::double::rounded_up;
+
 /// What lengths from 0 to a largest one are stored with: five bits of exponent, ten of mantissa.
 ///
 /// Codes order as lengths do. Lengths far below the largest one, by 2³², become the smallest code above 0.
@@ -60,19 +62,6 @@ impl LengthScale {
 fn upper_bits(length: f64) -> i32 {
     let bits = rounded_up(length).to_bits();
     (bits.div_ceil(1 << SHIFT)).cast_signed()
-}
-
-/// The smallest `f32` that is not below a number.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounded up where it was rounded down"
-)]
-pub(super) fn rounded_up(number: f64) -> f32 {
-    let nearest = number as f32;
-    match f64::from(nearest) < number {
-        true => nearest.next_up(),
-        false => nearest,
-    }
 }
 
 #[cfg(test)]

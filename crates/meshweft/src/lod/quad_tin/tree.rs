@@ -2,13 +2,12 @@
 
 use std::io::{self, Write};
 
-use super::descent::{Descent, TinSurface};
+use super::descent::{TinSurface, draw};
 use super::extent::TinExtent;
 use super::grid::GridTin;
 use super::limited::{TinLimit, draw_within};
 use super::points::PointHierarchy;
 use super::stored_tree::{self, StoredTree, TinBlock};
-use super::triangle::{BisectionTree, NodeBound};
 use crate::bits::DecodeError;
 use crate::lod::view::CameraView;
 
@@ -71,15 +70,4 @@ impl TinTree {
     ) -> io::Result<()> {
         with_tree!(self, tree => stored_tree::write(tree, extent, name, sink))
     }
-}
-
-/// Draws what a view needs.
-fn draw<T: BisectionTree>(tree: &T, view: &CameraView, surface: &mut TinSurface) {
-    let needs = |_, bound: &NodeBound| view.needs(&bound.detail());
-    Descent {
-        tree,
-        needs,
-        surface,
-    }
-    .run();
 }

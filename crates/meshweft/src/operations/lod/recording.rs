@@ -10,7 +10,7 @@ use crate::index::index32;
 use crate::lod::CameraView;
 use crate::lod::fast_mesh::{FrameBudget, Front, FrontChanges};
 use crate::lod::geometry_cache::{
-    EvictionPolicy, FrameMode, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
+    EvictionPolicy, GeometryCache, GeometryCacheError, IndexSlots, RecordedPath,
 };
 use crate::operations::walks::WalkFrame;
 use crate::operations::walks::WalkOptimum;
@@ -218,17 +218,11 @@ impl RecordedWalk {
             starts = recorded.ends;
 
             let frame = WalkFrame {
-                inserts: statistics.inserts,
-                vertex_ranges: statistics.ranges,
-                vertex_bytes: statistics.bytes(options.vertex_size),
-                patched_faces: patch.patched,
-                index_ranges: patch.ranges,
-                index_bytes: patch.bytes as u64,
-                is_streamed: mode == FrameMode::Streamed,
                 cache_milliseconds: 1e3 * (cached - start),
                 index_milliseconds: 1e3 * (indexed - cached),
                 ..recorded.frame
-            };
+            }
+            .with_sent(mode, statistics, patch, options.vertex_size);
             each(&cache, &indices, frame);
         }
         Ok(())
@@ -293,7 +287,6 @@ impl RecordedWalk {
                 faces: front.face_count(),
                 added: added.len() - roots,
                 removed: removed.len(),
-                passes: 1,
                 update_milliseconds: 1e3 * seconds,
                 ..WalkFrame::default()
             },

@@ -210,19 +210,13 @@ impl Walker {
             faces: front.face_count(),
             added: changes.added_vertices.len(),
             removed: changes.removed_vertices.len(),
-            inserts: statistics.inserts,
-            vertex_ranges: statistics.ranges,
-            vertex_bytes: statistics.bytes(self.vertex_size),
-            patched_faces: patch.patched,
-            index_ranges: patch.ranges,
-            index_bytes: patch.bytes as u64,
-            passes: 1,
-            is_streamed: mode == FrameMode::Streamed,
             read_bytes: read - self.bytes_read,
             update_milliseconds: 1e3 * (updated - start),
             cache_milliseconds: 1e3 * (cached - sorted),
             index_milliseconds: 1e3 * (indexed - recorded),
-        };
+            ..WalkFrame::default()
+        }
+        .with_sent(mode, statistics, patch, self.vertex_size);
         self.is_first = false;
         self.bytes_read = read;
         if mode == FrameMode::Passes {

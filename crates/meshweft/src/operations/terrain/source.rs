@@ -87,7 +87,7 @@ impl TerrainSource {
     /// options are for height maps.
     ///
     /// # Errors
-    /// [`TerrainError`]: a file cannot be read, is over a limit, is no terrain or not sound, or the files do not fit together.
+    /// [`TerrainError`]: a file cannot be read, is over a limit, is not a terrain or not sound, or the files do not fit together.
     pub fn open(paths: &[PathBuf], options: &TerrainReadOptions) -> Result<Self, TerrainError> {
         match paths {
             [path] if is_stored(path, "mwt", QuadTin::begins_bytes) => {

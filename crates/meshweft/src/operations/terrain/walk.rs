@@ -168,19 +168,13 @@ impl TerrainWalker {
             faces: self.living.len(),
             added: statistics.added,
             removed: statistics.removed,
-            inserts: statistics.inserts,
-            vertex_ranges: statistics.ranges,
-            vertex_bytes: statistics.bytes(self.vertex_size),
-            patched_faces: patch.patched,
-            index_ranges: patch.ranges,
-            index_bytes: patch.bytes as u64,
-            passes: 1,
-            is_streamed: mode == FrameMode::Streamed,
             read_bytes: read - self.bytes_read,
             update_milliseconds: 1e3 * (updated - start),
             cache_milliseconds: 1e3 * (cached - updated),
             index_milliseconds: 1e3 * (indexed - recorded),
-        };
+            ..WalkFrame::default()
+        }
+        .with_sent(mode, statistics, patch, self.vertex_size);
         self.bytes_read = read;
         if mode == FrameMode::Passes {
             draw_passes(

@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use crate::lod::geometry_cache::{FrameMode, FrameStatistics, IndexStatistics};
+
 /// The counts and times of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
@@ -38,6 +40,29 @@ pub struct WalkFrame {
     pub cache_milliseconds: f64,
     /// Milliseconds to write indices.
     pub index_milliseconds: f64,
+}
+
+impl WalkFrame {
+    /// The same frame with what it sends to the vertex buffer and to the index buffer. Vertices have this many bytes.
+    pub(in crate::operations) fn with_sent(
+        self,
+        mode: FrameMode,
+        upload: FrameStatistics,
+        patch: IndexStatistics,
+        vertex_size: usize,
+    ) -> Self {
+        Self {
+            inserts: upload.inserts,
+            vertex_ranges: upload.ranges,
+            vertex_bytes: upload.bytes(vertex_size),
+            patched_faces: patch.patched,
+            index_ranges: patch.ranges,
+            index_bytes: patch.bytes as u64,
+            passes: 1,
+            is_streamed: mode == FrameMode::Streamed,
+            ..self
+        }
+    }
 }
 
 /// A figure of each frame.
