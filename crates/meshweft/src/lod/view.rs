@@ -305,6 +305,14 @@ impl Urgency {
         self.excess < part * other.excess
     }
 
+    /// Its place among quarters of octaves of the excess, and of the error where the excess is infinite.
+    pub(super) fn step(self) -> u32 {
+        match self.excess.is_finite() {
+            true => (self.excess.to_bits() >> 50) as u32,
+            false => (1 << 16) + (self.error.to_bits() >> 21),
+        }
+    }
+
     pub(super) fn order(self, other: Self) -> Ordering {
         let by_excess = self.excess.total_cmp(&other.excess);
         by_excess.then(self.error.total_cmp(&other.error))

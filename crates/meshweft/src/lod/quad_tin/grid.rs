@@ -171,6 +171,11 @@ impl BisectionTree for GridTin {
     }
 
     #[inline]
+    fn is_inside(&self, triangle: &TinTriangle) -> bool {
+        self.blocks.square.is_inside(triangle)
+    }
+
+    #[inline]
     fn detail(&self, triangle: &TinTriangle) -> Detail {
         let square = &self.blocks.square;
         let is_inside = square.is_inside(triangle);
@@ -189,15 +194,12 @@ impl BisectionTree for GridTin {
             Ok(node) if node.error & !VOID == INFINITE => Detail::Crossing,
             // A file that someone made up may have any error there.
             Ok(_) if !is_inside => Detail::Crossing,
-            Ok(node) => {
-                let flags = [node.error, node.radius][usize::from(triangle.side)];
-                Detail::Inside(NodeBound {
-                    position: self.raised(place, node.height),
-                    error: self.errors.length(node.error & !VOID),
-                    radius: self.radii.length(node.radius & !VOID),
-                    is_surface: flags & VOID == 0,
-                })
-            }
+            Ok(node) => Detail::Inside(NodeBound {
+                position: self.raised(place, node.height),
+                error: self.errors.length(node.error & !VOID),
+                radius: self.radii.length(node.radius & !VOID),
+                surface: [node.error, node.radius].map(|flags| flags & VOID == 0),
+            }),
         }
     }
 

@@ -1,10 +1,10 @@
 //! The surface that a view needs most, of a limited size.
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashSet};
+use std::collections::{BTreeMap, BinaryHeap, HashSet};
 
 use super::descent::{Descent, TinSurface};
-use super::triangle::{BisectionTree, Detail, NodeBound, TinTriangle};
+use super::triangle::{BisectionTree as _, Detail, DrawnTree, NodeBound, TinTriangle};
 use crate::lod::view::{CameraView, Urgency};
 
 /// What a surface may have at most.
@@ -18,70 +18,81 @@ pub enum TinLimit {
 }
 
 /// Draws what a view needs, the worst first, as long as there is room.
-pub(super) fn draw_within<T: BisectionTree>(
-    tree: &T,
+pub(super) fn draw_within(
+    mut drawn: impl DrawnTree,
     view: &CameraView,
     limit: TinLimit,
     surface: &mut TinSurface,
 ) {
     let mut refined = Refined {
-        tree,
+        drawn: &mut drawn,
         view,
-        queue: BinaryHeap::new(),
-        missing: Vec::new(),
+        limit,
     };
 
     // What is cut anyhow: along borders and holes.
-    let mut faces = 0;
-    let mut always = HashSet::new();
-    for root in tree.roots() {
-        faces += refined.add(&root, 0, &mut always);
+    let mut waiting: BTreeMap<u32, Vec<Waiting>> = BTreeMap::new();
+    let mut first = Vec::new();
+    for root in refined.drawn.tree().roots() {
+        refined.add(&root, 0, &mut first, &mut |it| {
+            waiting.entry(it.urgency.step()).or_default().push(it);
+        });
     }
     let mut room = match limit {
-        TinLimit::Faces(most) => most.saturating_sub(faces),
-        TinLimit::Vertices(most) => most.saturating_sub(always.len()),
+        TinLimit::Faces(most) => most.saturating_sub(first.len()),
+        TinLimit::Vertices(most) => most.saturating_sub(distinct(first.into_flattened())),
     };
 
-    // Both triangles of a diamond are in the queue: whatever they come from is needed at least as much.
-    let mut cut = HashSet::new();
-    while let Some(first) = refined.queue.pop() {
-        let split = first.triangle.split;
-        let is_other = |it: &Waiting| it.triangle.split == split;
-        let other = refined.queue.peek().is_some_and(is_other);
-        let other = other.then(|| refined.queue.pop()).flatten();
-        let diamond = [Some(first), other];
-        let cost = refined.cost(diamond.iter().flatten(), limit);
-        if cost > room {
-            break;
-        }
-        room -= cost;
-        cut.insert(split);
-        for waiting in diamond.iter().flatten() {
-            for half in tree.halves(&waiting.triangle) {
-                refined.add(&half, waiting.depth + 1, &mut always);
+    // Step by step less urgent: whatever a triangle comes from is needed at least as much.
+    let mut cut = Cut::default();
+    while let Some((step, triangles)) = waiting.pop_last() {
+        match refined.cost_of_all(step, &triangles, room, &mut waiting) {
+            Some(cost) => room -= cost,
+            None => {
+                cut = Cut {
+                    last_step: step,
+                    of_last_step: refined.worst_of(triangles, room),
+                };
+                break;
             }
         }
     }
 
-    let missing = refined.missing;
-    let needs = |split, _: &NodeBound| cut.contains(&split);
-    Descent {
-        tree,
-        needs,
-        surface,
-    }
-    .run();
-    surface.missing = missing;
+    let needs = |split, bound: &NodeBound| {
+        let detail = bound.detail();
+        view.needs(&detail) && cut.has(split, view.urgency(&detail).step())
+    };
+    Descent::new(&mut drawn, needs, surface).run();
 }
 
-struct Refined<'a, T> {
-    tree: &'a T,
+/// How many numbers are different.
+fn distinct(mut numbers: Vec<u32>) -> usize {
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers.len()
+}
+
+/// What is cut: all of higher steps, and of the last one only some.
+#[derive(Debug, Default)]
+struct Cut {
+    last_step: u32,
+    of_last_step: HashSet<u32>,
+}
+
+impl Cut {
+    fn has(&self, split: u32, step: u32) -> bool {
+        step > self.last_step || step == self.last_step && self.of_last_step.contains(&split)
+    }
+}
+
+struct Refined<'a, D> {
+    drawn: &'a mut D,
     view: &'a CameraView,
-    queue: BinaryHeap<Waiting>,
-    missing: Vec<usize>,
+    limit: TinLimit,
 }
 
 /// A triangle that may be cut.
+#[derive(Debug, Clone, Copy)]
 struct Waiting {
     urgency: Urgency,
     depth: u32,
@@ -89,50 +100,114 @@ struct Waiting {
     is_surface: bool,
 }
 
-impl<T: BisectionTree> Refined<'_, T> {
-    /// A triangle of the surface: how many faces it is. Vertices of what is cut anyhow are collected.
-    fn add(&mut self, triangle: &TinTriangle, depth: u32, always: &mut HashSet<u32>) -> usize {
-        let is_surface = match self.tree.detail(triangle) {
-            Detail::Outside => false,
-            Detail::Finest => self.tree.is_surface(triangle),
-            Detail::Missing(block) => {
-                self.missing.push(block);
-                false
-            }
+impl<D: DrawnTree> Refined<'_, D> {
+    /// A triangle: its faces that are drawn whatever is cut later, and what may be cut.
+    fn add(
+        &mut self,
+        triangle: &TinTriangle,
+        depth: u32,
+        faces: &mut Vec<[u32; 3]>,
+        wait: &mut dyn FnMut(Waiting),
+    ) {
+        let is_surface = match triangle.detail_in(self.drawn) {
+            Detail::Outside | Detail::Missing(_) => false,
+            Detail::Finest => self.drawn.tree().is_surface(triangle),
             Detail::Crossing => {
-                let halves = self.tree.halves(triangle);
-                return halves
-                    .map(|it| self.add(&it, depth + 1, always))
-                    .iter()
-                    .sum();
+                for half in self.drawn.tree().halves(triangle) {
+                    self.add(&half, depth + 1, faces, wait);
+                }
+                return;
             }
             Detail::Inside(bound) => {
                 let detail = bound.detail();
+                let is_surface = bound.surface[usize::from(triangle.side)];
                 if self.view.needs(&detail) {
-                    self.queue.push(Waiting {
+                    wait(Waiting {
                         urgency: self.view.urgency(&detail),
                         depth,
                         triangle: *triangle,
-                        is_surface: bound.is_surface,
+                        is_surface,
                     });
                 }
-                bound.is_surface
+                is_surface
             }
         };
         if is_surface {
-            always.extend([triangle.apex, triangle.left, triangle.right]);
+            faces.push([triangle.apex, triangle.left, triangle.right]);
         }
-        usize::from(is_surface)
     }
 
-    /// How much room it takes to cut a diamond.
-    fn cost<'b>(&self, diamond: impl Iterator<Item = &'b Waiting>, limit: TinLimit) -> usize {
-        // A triangle inside becomes two.
-        let faces = diamond.filter(|it| it.is_surface).count();
-        match limit {
-            TinLimit::Faces(_) => faces,
-            TinLimit::Vertices(_) => faces.min(1),
+    /// The halves of a triangle.
+    fn add_halves(&mut self, cut: &Waiting, wait: &mut dyn FnMut(Waiting)) {
+        for half in self.drawn.tree().halves(&cut.triangle) {
+            self.add(&half, cut.depth + 1, &mut Vec::new(), wait);
         }
+    }
+
+    /// How much room it takes to cut all triangles of a step, with those of it that come then; `None` if there is not as much. What is
+    /// less urgent waits.
+    fn cost_of_all(
+        &mut self,
+        step: u32,
+        triangles: &[Waiting],
+        room: usize,
+        waiting: &mut BTreeMap<u32, Vec<Waiting>>,
+    ) -> Option<usize> {
+        // Two triangles at most are cut at a vertex.
+        let most = match self.limit {
+            TinLimit::Faces(_) => room,
+            TinLimit::Vertices(_) => room.saturating_mul(2),
+        };
+        let mut stack = triangles.to_vec();
+        let mut splits = Vec::new();
+        while let Some(cut) = stack.pop() {
+            if cut.is_surface {
+                splits.push(cut.triangle.split);
+            }
+            if splits.len() > most {
+                return None;
+            }
+            self.add_halves(&cut, &mut |it| match it.urgency.step() {
+                less if less < step => waiting.entry(less).or_default().push(it),
+                _ => stack.push(it),
+            });
+        }
+        let cost = match self.limit {
+            TinLimit::Faces(_) => splits.len(),
+            TinLimit::Vertices(_) => distinct(splits),
+        };
+        (cost <= room).then_some(cost)
+    }
+
+    /// Where triangles are cut, the most urgent first, until there is no room left.
+    fn worst_of(&mut self, triangles: Vec<Waiting>, mut room: usize) -> HashSet<u32> {
+        let mut cut = HashSet::new();
+        let mut queue = BinaryHeap::from(triangles);
+        while let Some(first) = queue.pop() {
+            // Both triangles of a diamond are in the queue: whatever they come from is needed at least as much.
+            let split = first.triangle.split;
+            let is_other = |it: &Waiting| it.triangle.split == split;
+            let other = queue.peek().is_some_and(is_other);
+            let other = other.then(|| queue.pop()).flatten();
+            let diamond = [Some(first), other];
+
+            // A triangle of the surface becomes two.
+            let diamond = diamond.iter().flatten();
+            let faces = diamond.clone().filter(|it| it.is_surface).count();
+            let cost = match self.limit {
+                TinLimit::Faces(_) => faces,
+                TinLimit::Vertices(_) => faces.min(1),
+            };
+            if cost > room {
+                break;
+            }
+            room -= cost;
+            cut.insert(split);
+            for waiting in diamond {
+                self.add_halves(waiting, &mut |it| queue.push(it));
+            }
+        }
+        cut
     }
 }
 

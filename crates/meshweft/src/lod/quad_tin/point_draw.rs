@@ -19,12 +19,7 @@ impl PointHierarchy {
     pub(super) fn extent(&self) -> TinExtent {
         let mut surface = TinSurface::default();
         let needs = |_, _: &NodeBound| true;
-        Descent {
-            tree: self,
-            needs,
-            surface: &mut surface,
-        }
-        .run();
+        Descent::new(self, needs, &mut surface).run();
         let heights = self.nodes.iter().map(|it| it.position[1]);
         let range = [f32::INFINITY, f32::NEG_INFINITY];
         TinExtent {

@@ -138,6 +138,10 @@ impl BisectionTree for PointHierarchy {
         })
     }
 
+    fn is_inside(&self, _: &TinTriangle) -> bool {
+        true
+    }
+
     fn detail(&self, triangle: &TinTriangle) -> Detail {
         if triangle.split == NONE {
             return Detail::Finest;
@@ -151,7 +155,7 @@ impl BisectionTree for PointHierarchy {
             position: node.position,
             error: node.error,
             radius: node.radius,
-            is_surface: true,
+            surface: [true; 2],
         })
     }
 

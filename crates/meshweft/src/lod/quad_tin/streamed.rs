@@ -2,11 +2,13 @@
 
 use std::io::{self, BufRead, BufReader, Read, Seek, Write};
 
-use super::descent::TinSurface;
+use super::descent::{TinSurface, draw};
 use super::hierarchy::QuadTin;
-use super::limited::TinLimit;
+use super::limited::{TinLimit, draw_within};
 use super::stored::StoredHead;
-use super::stored_tree::{SIGNATURE, TinBlock};
+use super::stored_tree::{SIGNATURE, StoredTree, TinBlock};
+use super::tree::TinTree;
+use super::triangle::{BisectionTree, DrawnTree};
 use crate::limits::Limits;
 use crate::lod::block_file::BlockFile;
 use crate::lod::hierarchy_error::HierarchyError;
@@ -72,7 +74,7 @@ impl<S: Read + Seek> StreamedTin<S> {
         view: &CameraView,
         surface: &mut TinSurface,
     ) -> Result<(), HierarchyError> {
-        self.draw_by(surface, |tin, surface| tin.draw(view, surface))
+        self.draw_by(None, view, surface)
     }
 
     /// As [`QuadTin::draw_within`].
@@ -85,28 +87,23 @@ impl<S: Read + Seek> StreamedTin<S> {
         view: &CameraView,
         surface: &mut TinSurface,
     ) -> Result<(), HierarchyError> {
-        self.draw_by(surface, |tin, surface| {
-            tin.draw_within(limit, view, surface)
-        })
+        self.draw_by(Some(limit), view, surface)
     }
 
-    /// Draws until nothing is missing: each time a level deeper, or all.
+    /// Draws, and reads blocks on the way.
     fn draw_by(
         &mut self,
+        limit: Option<TinLimit>,
+        view: &CameraView,
         surface: &mut TinSurface,
-        draw: impl Fn(&QuadTin, &mut TinSurface),
     ) -> Result<(), HierarchyError> {
-        loop {
-            draw(&self.tin, surface);
-            if surface.missing.is_empty() {
-                return Ok(());
-            }
-            let mut missing = std::mem::take(&mut surface.missing);
-            missing.sort_unstable();
-            missing.dedup();
-            for block in missing {
-                self.read(block)?;
-            }
+        let source = TinBlocks {
+            file: &mut self.file,
+            entries: &self.blocks,
+        };
+        match &mut self.tin.tree {
+            TinTree::Grid(tree) => source.draw(tree, limit, view, surface),
+            TinTree::Points(tree) => source.draw(tree, limit, view, surface),
         }
     }
 
@@ -124,10 +121,75 @@ impl<S: Read + Seek> StreamedTin<S> {
     }
 
     fn read(&mut self, block: usize) -> Result<(), HierarchyError> {
-        let entry = self.blocks[block];
+        let mut source = TinBlocks {
+            file: &mut self.file,
+            entries: &self.blocks,
+        };
+        match &mut self.tin.tree {
+            TinTree::Grid(tree) => source.read_into(tree, block),
+            TinTree::Points(tree) => source.read_into(tree, block),
+        }
+    }
+}
+
+/// The blocks of a file.
+struct TinBlocks<'a, S> {
+    file: &'a mut BlockFile<S>,
+    entries: &'a [TinBlock],
+}
+
+impl<S: Read + Seek> TinBlocks<'_, S> {
+    fn read_into<T: StoredTree>(
+        &mut self,
+        tree: &mut T,
+        block: usize,
+    ) -> Result<(), HierarchyError> {
+        let entry = self.entries[block];
         let bytes = self.file.read(block, entry.offset, entry.length)?;
-        self.tin.tree.read_block(block, entry, bytes)?;
+        entry.read_into(tree, block, bytes)?;
         Ok(())
+    }
+
+    fn draw<T: StoredTree + BisectionTree>(
+        self,
+        tree: &mut T,
+        limit: Option<TinLimit>,
+        view: &CameraView,
+        surface: &mut TinSurface,
+    ) -> Result<(), HierarchyError> {
+        let mut reading = ReadingTree {
+            tree,
+            blocks: self,
+            error: None,
+        };
+        match limit {
+            None => draw(&mut reading, view, surface),
+            Some(limit) => draw_within(&mut reading, view, limit, surface),
+        }
+        reading.error.map_or(Ok(()), Err)
+    }
+}
+
+/// A hierarchy of which blocks are read when the way down comes to them.
+struct ReadingTree<'a, T, S> {
+    tree: &'a mut T,
+    blocks: TinBlocks<'a, S>,
+    /// The first one: nothing is read after it.
+    error: Option<HierarchyError>,
+}
+
+impl<T: StoredTree + BisectionTree, S: Read + Seek> DrawnTree for ReadingTree<'_, T, S> {
+    type Tree = T;
+
+    fn tree(&self) -> &T {
+        self.tree
+    }
+
+    fn read(&mut self, block: usize) -> bool {
+        if self.error.is_none() {
+            self.error = self.blocks.read_into(self.tree, block).err();
+        }
+        self.error.is_none()
     }
 }
 

@@ -7,8 +7,7 @@ use super::extent::TinExtent;
 use super::grid::GridTin;
 use super::limited::{TinLimit, draw_within};
 use super::points::PointHierarchy;
-use super::stored_tree::{self, StoredTree, TinBlock};
-use crate::bits::DecodeError;
+use super::stored_tree::{self, StoredTree};
 use crate::lod::view::CameraView;
 
 /// A hierarchy of either kind.
@@ -51,15 +50,6 @@ impl TinTree {
 
     pub(super) fn has_block(&self, block: usize) -> bool {
         with_tree!(self, tree => tree.has_block(block))
-    }
-
-    pub(super) fn read_block(
-        &mut self,
-        block: usize,
-        entry: TinBlock,
-        bytes: &[u8],
-    ) -> Result<(), DecodeError> {
-        with_tree!(self, tree => entry.read_into(tree, block, bytes))
     }
 
     pub(super) fn write(

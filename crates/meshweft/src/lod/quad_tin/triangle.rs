@@ -43,8 +43,8 @@ pub(super) struct NodeBound {
     pub(super) error: f32,
     /// Around the vertex, all that there is below.
     pub(super) radius: f32,
-    /// Whether the triangle is surface.
-    pub(super) is_surface: bool,
+    /// Of each triangle of the diamond, whether it is surface.
+    pub(super) surface: [bool; 2],
 }
 
 /// A hierarchy of bisections: a forest of two triangles.
@@ -53,10 +53,56 @@ pub(super) trait BisectionTree {
     fn roots(&self) -> [TinTriangle; 2];
     /// The halves of a triangle that can be cut: at its left corner, at its right corner.
     fn halves(&self, triangle: &TinTriangle) -> [TinTriangle; 2];
+    /// Whether a triangle is all in the terrain's rectangle, so that the other one of its diamond tells what there is of it.
+    fn is_inside(&self, triangle: &TinTriangle) -> bool;
     /// What there is of a triangle.
     fn detail(&self, triangle: &TinTriangle) -> Detail;
     /// Whether a triangle that cannot be cut is surface.
     fn is_surface(&self, triangle: &TinTriangle) -> bool;
     /// The number of a vertex, from 0.
     fn number(&self, vertex: u32) -> u32;
+}
+
+/// A hierarchy that may read blocks while it is drawn.
+pub(super) trait DrawnTree {
+    type Tree: BisectionTree;
+    fn tree(&self) -> &Self::Tree;
+    /// Reads a block; `false` if that is not possible.
+    fn read(&mut self, block: usize) -> bool;
+}
+
+/// What was not read stays so.
+impl<T: BisectionTree> DrawnTree for &T {
+    type Tree = T;
+
+    fn tree(&self) -> &T {
+        self
+    }
+
+    fn read(&mut self, _: usize) -> bool {
+        false
+    }
+}
+
+impl<D: DrawnTree> DrawnTree for &mut D {
+    type Tree = D::Tree;
+
+    fn tree(&self) -> &D::Tree {
+        (**self).tree()
+    }
+
+    fn read(&mut self, block: usize) -> bool {
+        (**self).read(block)
+    }
+}
+
+impl TinTriangle {
+    /// What there is of it, after its block was read if need be.
+    #[inline]
+    pub(super) fn detail_in(&self, drawn: &mut impl DrawnTree) -> Detail {
+        match drawn.tree().detail(self) {
+            Detail::Missing(block) if drawn.read(block) => drawn.tree().detail(self),
+            detail => detail,
+        }
+    }
 }
