@@ -110,8 +110,8 @@ pub use terrain::{
     BuiltTerrain, ExtractedTerrain, TerrainBuildReport, TerrainDetail, TerrainError,
     TerrainExtractOptions, TerrainExtractReport, TerrainFacts, TerrainHeights, TerrainPath,
     TerrainReadOptions, TerrainSamples, TerrainSource, TerrainVerifyOptions, TerrainVerifyReport,
-    TerrainWalkOptions, TerrainWalkReport, VerifiedSurface, terrain_build, terrain_extract,
-    terrain_verify, terrain_walk,
+    TerrainWalkOptions, TerrainWalkReport, TerrainWalker, VerifiedSurface, terrain_build,
+    terrain_extract, terrain_verify, terrain_walk,
 };
 #[cfg(feature = "files")]
 pub use walks::{

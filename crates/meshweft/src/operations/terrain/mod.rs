@@ -1,7 +1,7 @@
 //! Terrain: a hierarchy of right triangles over heights, as a file, as a mesh, on a path of the eye, and how far it is off there.
 //!
 //! Read `heights` for where heights come from, `source` for what is drawn, `build` and `extract` for files, `paths` for where the eye goes,
-//! `walk` for what happens in a frame, `verify` and `full_grid` for what is measured.
+//! `walk` for what happens in a frame (`numbered_surface` once, `walk_buffers` for each policy), `verify` and `full_grid` for what is measured.
 
 mod build;
 mod error;
@@ -10,6 +10,7 @@ mod extract;
 mod file_tests;
 mod full_grid;
 mod heights;
+mod numbered_surface;
 mod numbers;
 mod paths;
 mod source;
@@ -17,6 +18,7 @@ mod verify;
 mod verify_options;
 mod verify_report;
 mod walk;
+mod walk_buffers;
 mod walk_options;
 mod walk_report;
 #[cfg(test)]
@@ -33,6 +35,6 @@ pub use source::{TerrainFacts, TerrainSource};
 pub use verify::terrain_verify;
 pub use verify_options::TerrainVerifyOptions;
 pub use verify_report::{TerrainVerifyReport, VerifiedSurface};
-pub use walk::terrain_walk;
+pub use walk::{TerrainWalker, terrain_walk};
 pub use walk_options::TerrainWalkOptions;
 pub use walk_report::TerrainWalkReport;

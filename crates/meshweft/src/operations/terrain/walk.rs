@@ -3,14 +3,15 @@
 use std::ops::ControlFlow;
 
 use super::error::TerrainError;
-use super::numbers::DistinctNumbers;
+use super::numbered_surface::NumberedSurface;
 use super::source::{TerrainFacts, TerrainSource};
+use super::walk_buffers::TerrainBuffers;
 use super::walk_options::TerrainWalkOptions;
 use super::walk_report::TerrainWalkReport;
 use crate::lod::CameraView;
-use crate::lod::geometry_cache::{FrameMode, GeometryCache, IndexSlots, RecordedPath};
-use crate::lod::quad_tin::{TinLimit, TinSurface};
-use crate::operations::walks::{WalkFrame, WalkOptimum, draw_passes};
+use crate::lod::geometry_cache::{EvictionPolicy, RecordedPath};
+use crate::lod::quad_tin::TinLimit;
+use crate::operations::walks::{WalkFrame, WalkOptimum};
 use crate::progress::Progress;
 
 /// Walks over a terrain, and counts what each frame would send to a graphics card.
@@ -18,6 +19,7 @@ use crate::progress::Progress;
 /// A frame finds the surface that the view needs on one way down from the coarsest one, gives the vertices that came a slot in the vertex
 /// buffer, and patches the index buffer: of both is only known what there is. Vertices and faces have numbers from when they are first drawn, so memory is
 /// in proportion to what the walk draws, and not to the terrain. Of a `.mwt` file only the blocks are read that a frame needs.
+/// [`TerrainWalker`] walks more than once, or for several policies at a time.
 ///
 /// `clock` gives seconds since any time; give `&|| 0.0` where there is no clock, and all times are 0. All else is the same in each
 /// run.
@@ -46,172 +48,158 @@ pub fn terrain_walk(
     clock: &dyn Fn() -> f64,
     progress: &dyn Progress,
 ) -> Result<TerrainWalkReport, TerrainError> {
-    options.check()?;
-    let terrain = TerrainFacts::of(source.tin());
-    let mut report = TerrainWalkReport {
-        file: source.file.clone(),
-        options: options.clone(),
-        terrain,
-        file_bytes: source.bytes().map(|[length, _]| length),
-        frames: Vec::new(),
-        optimum: None,
-        distinct: [0; 2],
-        is_stopped: false,
-        notes: source.notes.clone(),
-    };
-
-    // All frames.
-    let mut walker = TerrainWalker::new(source, options)?;
-    let count = options.path.frame_count(options.frames);
-    for number in 0..count {
-        let view = options.view(&terrain, number, count)?;
-        report.frames.push(walker.frame(&view, number, clock)?);
-        let done = (number + 1) as f64 / count as f64;
-        if progress.report(done) == ControlFlow::Break(()) && number + 1 < count {
-            report.is_stopped = true;
-            break;
-        }
-    }
-
-    report.distinct = [walker.vertices.len(), walker.faces.len()];
-    report.optimum = walker
-        .path
-        .map(|path| WalkOptimum::of(&path, options.slots));
-    Ok(report)
+    let mut walker = TerrainWalker::new(source);
+    let mut reports = walker.walk(options, &[options.policy], clock, progress)?;
+    Ok(reports.remove(0))
 }
 
-/// The terrain and the buffers of a renderer.
-pub(super) struct TerrainWalker {
+/// A terrain to walk over more than once, and with several eviction policies at a time: the surface of a frame is found once, and each policy
+/// keeps it in its own buffers.
+///
+/// ```no_run
+/// use meshweft::operations::{
+///     EvictionPolicy, TerrainReadOptions, TerrainSource, TerrainWalkOptions, TerrainWalker,
+///     WalkQuantity,
+/// };
+///
+/// let source = TerrainSource::open(&["puget.mwt".into()], &TerrainReadOptions::default())?;
+/// let mut walker = TerrainWalker::new(source);
+/// let options = TerrainWalkOptions::default();
+/// for report in walker.walk(&options, &EvictionPolicy::ALL, &|| 0.0, &())? {
+///     let inserts = report.summary(WalkQuantity::Inserts).total;
+///     println!("{}: {inserts}", report.options.policy);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct TerrainWalker {
     source: TerrainSource,
-    pub(super) surface: TinSurface,
-    limit: Option<TinLimit>,
-    pub(super) vertices: DistinctNumbers,
-    pub(super) faces: DistinctNumbers,
-    /// Of each face its vertices, all by the numbers of this walk.
-    corners: Vec<[u32; 3]>,
-    pub(super) cache: GeometryCache,
-    pub(super) indices: IndexSlots,
-    /// Only if the optimum is asked for.
-    path: Option<RecordedPath>,
-    vertex_size: usize,
     /// How many bytes of the file were read before this frame.
     bytes_read: u64,
-    /// The errors of the vertices that came in a frame.
-    errors: Vec<f32>,
-    /// The corners of all faces of a frame, and these faces.
-    active: Vec<u32>,
-    living: Vec<(u32, [u32; 3])>,
 }
 
 impl TerrainWalker {
-    pub(super) fn new(
-        source: TerrainSource,
-        options: &TerrainWalkOptions,
-    ) -> Result<Self, TerrainError> {
-        let cache = GeometryCache::new(options.slots, Vec::new(), options.policy)?;
-        Ok(Self {
+    /// Over this terrain.
+    #[must_use]
+    pub fn new(source: TerrainSource) -> Self {
+        Self {
             source,
-            surface: TinSurface::default(),
-            limit: options.limit.map(TinLimit::Vertices),
-            vertices: DistinctNumbers::default(),
-            faces: DistinctNumbers::default(),
-            corners: Vec::new(),
-            cache: match options.passes {
-                true => cache.with_passes(),
-                false => cache,
-            },
-            indices: IndexSlots::new(0),
-            path: options.optimum.then(|| RecordedPath::new(0)),
-            vertex_size: options.vertex_size,
             bytes_read: 0,
-            errors: Vec::new(),
-            active: Vec::new(),
-            living: Vec::new(),
-        })
+        }
     }
 
-    /// Draws a view.
+    /// What is walked over.
+    #[must_use]
+    pub fn terrain(&self) -> TerrainFacts {
+        TerrainFacts::of(self.source.tin())
+    }
+
+    /// The same walk with each of these policies, in place of that of the options: reports in this order, each as [`terrain_walk`] gives it. The
+    /// times to find the surface are the same in all. Of a `.mwt` file is read what no walk before needed.
+    ///
+    /// # Errors
+    /// As [`terrain_walk`].
+    ///
+    /// # Complexity
+    /// A frame takes the time of a frame of [`terrain_walk`], of which O(faces) counts for each policy.
+    pub fn walk(
+        &mut self,
+        options: &TerrainWalkOptions,
+        policies: &[EvictionPolicy],
+        clock: &dyn Fn() -> f64,
+        progress: &dyn Progress,
+    ) -> Result<Vec<TerrainWalkReport>, TerrainError> {
+        let of_policy = |&policy: &EvictionPolicy| TerrainWalkOptions {
+            policy,
+            ..options.clone()
+        };
+        let all: Vec<TerrainWalkOptions> = policies.iter().map(of_policy).collect();
+        all.iter().try_for_each(TerrainWalkOptions::check)?;
+        let terrain = self.terrain();
+        let mut walk = TerrainWalk::new(&all)?;
+
+        // All frames.
+        let (mut frames, mut is_stopped) = (Vec::new(), false);
+        let count = options.path.frame_count(options.frames);
+        for number in 0..count {
+            let view = options.view(&terrain, number, count)?;
+            frames.push(self.frame(&mut walk, &view, number, clock)?);
+            let done = (number + 1) as f64 / count as f64;
+            if progress.report(done) == ControlFlow::Break(()) && number + 1 < count {
+                is_stopped = true;
+                break;
+            }
+        }
+
+        // A report of each policy.
+        let optimum = walk.path.map(|path| WalkOptimum::of(&path, options.slots));
+        let report = |(place, options): (usize, TerrainWalkOptions)| TerrainWalkReport {
+            file: self.source.file.clone(),
+            options,
+            terrain,
+            file_bytes: self.source.bytes().map(|[length, _]| length),
+            frames: frames.iter().map(|frame| frame[place]).collect(),
+            optimum,
+            distinct: [walk.surface.vertices.len(), walk.surface.faces.len()],
+            is_stopped,
+            notes: self.source.notes.clone(),
+        };
+        Ok(all.into_iter().enumerate().map(report).collect())
+    }
+
+    /// Draws a view with every policy of a walk.
     pub(super) fn frame(
         &mut self,
+        walk: &mut TerrainWalk,
         view: &CameraView,
         number: usize,
         clock: &dyn Fn() -> f64,
-    ) -> Result<WalkFrame, TerrainError> {
+    ) -> Result<Vec<WalkFrame>, TerrainError> {
         // What the view needs, by the numbers of this walk.
         let start = clock();
-        let surface = &mut self.surface;
-        self.source.draw(view, self.limit, Some(number), surface)?;
-        let new_faces = self.number_all();
-        let updated = clock();
-
-        // Slots for vertices.
-        let new_vertices = self.errors.len();
-        self.cache.grow(&self.errors)?;
-        let upload = self.cache.set_active(&self.active)?;
-        let (mode, statistics) = (upload.mode(), upload.statistics());
-        let cached = clock();
-        if let Some(path) = &mut self.path {
-            path.grow(new_vertices);
-            path.push_active(&self.active)?;
-        }
-
-        // Indices of faces.
-        let recorded = clock();
-        self.indices.grow(new_faces);
-        let patch = self.indices.set_living(&self.cache, &self.living);
-        let patch = patch.expect("all corners are active").statistics();
-        let indexed = clock();
-
+        walk.surface
+            .draw(&mut self.source, view, walk.limit, number)?;
+        let update_milliseconds = 1e3 * (clock() - start);
         let read = self.source.bytes().map_or(0, |[_, read]| read);
-        let mut frame = WalkFrame {
-            vertices: statistics.active,
-            faces: self.living.len(),
-            added: statistics.added,
-            removed: statistics.removed,
-            read_bytes: read - self.bytes_read,
-            update_milliseconds: 1e3 * (updated - start),
-            cache_milliseconds: 1e3 * (cached - updated),
-            index_milliseconds: 1e3 * (indexed - recorded),
-            ..WalkFrame::default()
+        let read_bytes = read - std::mem::replace(&mut self.bytes_read, read);
+        if let Some(path) = &mut walk.path {
+            path.grow(walk.surface.new_errors.len());
+            path.push_active(&walk.surface.active)?;
         }
-        .with_sent(mode, statistics, patch, self.vertex_size);
-        self.bytes_read = read;
-        if mode == FrameMode::Passes {
-            draw_passes(
-                &mut self.cache,
-                self.indices.corners(),
-                self.vertex_size,
-                &mut frame,
-            )?;
-            frame.cache_milliseconds += 1e3 * (clock() - indexed);
-        }
-        Ok(frame)
-    }
 
-    /// Numbers the faces and vertices of the surface: how many faces are new.
-    fn number_all(&mut self) -> usize {
-        let before = self.faces.len();
-        self.errors.clear();
-        self.active.clear();
-        self.living.clear();
-        let tin = self.source.tin();
-        for &(id, corners) in self.surface.faces() {
-            let (face, is_new) = self.faces.number(id);
-            if is_new {
-                let corners = corners.map(|vertex| {
-                    let (number, is_new) = self.vertices.number(vertex);
-                    if is_new {
-                        // What is always drawn is as coarse as can be.
-                        self.errors.push(tin.error(vertex).min(f32::MAX));
-                    }
-                    number
-                });
-                self.corners.push(corners);
-            }
-            let corners = self.corners[face as usize];
-            self.living.push((face, corners));
-            self.active.extend(corners);
+        // What each policy sends of it.
+        let mut frames = Vec::new();
+        for buffers in &mut walk.buffers {
+            frames.push(WalkFrame {
+                read_bytes,
+                update_milliseconds,
+                ..buffers.frame(&walk.surface, clock)?
+            });
         }
-        self.faces.len() - before
+        Ok(frames)
+    }
+}
+
+/// What a walk has drawn so far.
+pub(super) struct TerrainWalk {
+    pub(super) surface: NumberedSurface,
+    limit: Option<TinLimit>,
+    /// Of each policy.
+    pub(super) buffers: Vec<TerrainBuffers>,
+    /// Only if the optimum is asked for.
+    path: Option<RecordedPath>,
+}
+
+impl TerrainWalk {
+    /// With buffers for each of these options, which differ in the policy only.
+    pub(super) fn new(all: &[TerrainWalkOptions]) -> Result<Self, TerrainError> {
+        let buffers = all.iter().map(TerrainBuffers::new);
+        let limit = all.first().and_then(|options| options.limit);
+        Ok(Self {
+            surface: NumberedSurface::default(),
+            limit: limit.map(TinLimit::Vertices),
+            buffers: buffers.collect::<Result<_, _>>()?,
+            path: (all.iter().any(|options| options.optimum)).then(|| RecordedPath::new(0)),
+        })
     }
 }

@@ -10,7 +10,7 @@ use super::paths::TerrainPath;
 use super::source::{TerrainFacts, TerrainSource};
 use super::verify::terrain_verify;
 use super::verify_options::TerrainVerifyOptions;
-use super::walk::{TerrainWalker, terrain_walk};
+use super::walk::{TerrainWalk, TerrainWalker, terrain_walk};
 use super::walk_options::TerrainWalkOptions;
 use crate::height_grid::HeightGrid;
 use crate::limits::Limits;
@@ -43,6 +43,14 @@ fn options(path: TerrainPath, frames: usize) -> TerrainWalkOptions {
     }
 }
 
+fn of_policies(options: &TerrainWalkOptions) -> Vec<TerrainWalkOptions> {
+    let of_policy = |policy| TerrainWalkOptions {
+        policy,
+        ..options.clone()
+    };
+    EvictionPolicy::ALL.map(of_policy).to_vec()
+}
+
 #[test]
 fn a_frame_draws_the_surface_of_its_view() {
     let mut random = SplitMix64(11);
@@ -58,39 +66,87 @@ fn a_frame_draws_the_surface_of_its_view() {
                 limit,
                 ..options(path, 30)
             };
-            let mut walker = TerrainWalker::new(of_grid(&grid), &options).unwrap();
+            let mut walker = TerrainWalker::new(of_grid(&grid));
+            let mut walk = TerrainWalk::new(&of_policies(&options)).unwrap();
             let mut expected = TinSurface::default();
             for number in 0..30 {
                 let view = options.view(&facts, number, 30).unwrap();
-                let frame = walker.frame(&view, number, &|| 0.0).unwrap();
+                let frames = walker.frame(&mut walk, &view, number, &|| 0.0).unwrap();
                 match limit {
                     None => tin.draw(&view, &mut expected),
                     Some(limit) => tin.draw_within(TinLimit::Vertices(limit), &view, &mut expected),
                 }
-                assert_eq!(walker.surface.faces(), expected.faces());
-                assert_eq!(frame.faces, expected.faces().len());
+                assert_eq!(walk.surface.surface.faces(), expected.faces());
 
-                // What the index buffer draws is that, by the numbers of the walk.
-                assert!(walker.indices.is_true_to(&walker.cache));
-                let mut drawn: Vec<[u32; 3]> = walker.indices.corners().to_vec();
-                drawn.retain(|&corners| corners != [0; 3]);
+                // What every index buffer draws is that, by the numbers of the walk.
                 let mut numbered: Vec<[u32; 3]> = expected
                     .faces()
                     .iter()
-                    .map(|it| it.1.map(|vertex| walker.vertices.number(vertex).0))
+                    .map(|it| it.1.map(|vertex| walk.surface.vertices.number(vertex).0))
                     .collect();
-                drawn.sort_unstable();
                 numbered.sort_unstable();
-                assert_eq!(drawn, numbered);
                 let mut vertices = numbered.concat();
                 vertices.sort_unstable();
                 vertices.dedup();
-                assert_eq!(frame.vertices, vertices.len());
-                assert!(vertices.iter().all(|&it| walker.cache.is_active(it)));
-                assert_eq!(walker.cache.vertices(), walker.vertices.len());
+                assert_eq!(frames.len(), walk.buffers.len());
+                for (frame, buffers) in frames.iter().zip(&walk.buffers) {
+                    assert_eq!(frame.faces, expected.faces().len());
+                    assert!(buffers.indices.is_true_to(&buffers.cache));
+                    let mut drawn: Vec<[u32; 3]> = buffers.indices.corners().to_vec();
+                    drawn.retain(|&corners| corners != [0; 3]);
+                    drawn.sort_unstable();
+                    assert_eq!(drawn, numbered);
+                    assert_eq!(frame.vertices, vertices.len());
+                    assert!(vertices.iter().all(|&it| buffers.cache.is_active(it)));
+                    assert_eq!(buffers.cache.vertices(), walk.surface.vertices.len());
+                }
             }
         }
     }
+}
+
+#[test]
+fn policies_side_by_side_send_what_each_sends_alone() {
+    let grid = hills([200, 150], 2, &mut SplitMix64(8));
+    let mut walker = TerrainWalker::new(of_grid(&grid));
+    for path in TerrainPath::SHAPES {
+        // With slots for all frames, with too few for some, and these in passes.
+        for (slots, passes) in [(65_536, false), (1200, false), (1200, true)] {
+            let options = TerrainWalkOptions {
+                optimum: true,
+                slots,
+                passes,
+                ..options(path.clone(), 30)
+            };
+            let policies = match passes {
+                false => &EvictionPolicy::ALL[..],
+                true => &[EvictionPolicy::OldestFirst, EvictionPolicy::FinestFirst],
+            };
+            let reports = walker.walk(&options, policies, &|| 0.0, &()).unwrap();
+            assert_eq!(reports.len(), policies.len());
+            for (report, &policy) in reports.iter().zip(policies) {
+                let options = TerrainWalkOptions {
+                    policy,
+                    ..options.clone()
+                };
+                let alone = terrain_walk(of_grid(&grid), &options, &|| 0.0, &()).unwrap();
+                assert_eq!(report.to_json(), alone.to_json());
+                let overfull: usize = report.overfull_frames().iter().sum();
+                let is_all = policy == EvictionPolicy::Nothing;
+                assert_eq!(overfull > 0, is_all || slots == 1200, "{}", path.name());
+            }
+        }
+    }
+
+    // What one policy cannot is refused for all.
+    let options = TerrainWalkOptions {
+        passes: true,
+        ..options(TerrainPath::Fly, 3)
+    };
+    let refused = walker.walk(&options, &EvictionPolicy::ALL, &|| 0.0, &());
+    assert!(matches!(refused, Err(TerrainError::Option(_))));
+    let nothing = walker.walk(&options, &[], &|| 0.0, &()).unwrap();
+    assert!(nothing.is_empty());
 }
 
 #[test]
