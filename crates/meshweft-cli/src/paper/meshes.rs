@@ -20,6 +20,12 @@ pub(super) fn find(folder: &Path, names: &[&str]) -> Option<PathBuf> {
     paths.find(|path| path.is_file())
 }
 
+/// The name of a file without endings.
+pub(super) fn stem(file: &Path) -> String {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    name.split('.').next().unwrap_or_default().to_owned()
+}
+
 /// The largest mesh of that file, with its positions if it has any.
 pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mesh)>> {
     let Some(file) = find(folder, names) else {

@@ -68,10 +68,12 @@ enum WhichPaper {
     ///
     /// Tables 1 to 3 and figures 7 and 8, on the meshes that are found or named: how many vertices each policy inserts on
     /// three paths around a mesh, whether they are ordered as in the paper or why not, what is sent, and how long the level
-    /// of detail, the slots and the indices take. Each path is walked once and drawn by every policy.
+    /// of detail, the slots and the indices take. Tables 4 and 5 and figures 10 and 11 are the same of terrain. Each path is walked
+    /// once and drawn by every policy.
     ///
-    ///   meshweft paper lario --data folder-with-meshes
+    ///   meshweft paper lario --data folder-with-meshes-and-terrain
     ///   meshweft paper lario dragon.ply.gz --pictures folder
+    ///   meshweft paper lario --terrain N47W122.hgt.gz N47W123.hgt.gz N48W123.hgt.gz
     #[command(verbatim_doc_comment)]
     Lario(Lario),
 }

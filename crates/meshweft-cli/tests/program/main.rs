@@ -8,6 +8,7 @@ mod data;
 mod demo;
 mod disk;
 mod kept;
+mod lario;
 mod lod;
 mod lod_files;
 mod many;

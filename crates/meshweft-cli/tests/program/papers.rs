@@ -2,7 +2,6 @@
 
 use crate::Folder;
 use crate::basics::grid_obj;
-use crate::lod::waves_off;
 
 #[test]
 fn papers_without_their_meshes_say_what_they_look_for() {
@@ -206,78 +205,4 @@ fn pictures_of_kim_and_lee_are_known_again_and_replace_no_file_of_others() {
     for part in ["figure-12.png", "--force"] {
         assert!(refused.err().contains(part), "{}", refused.err());
     }
-}
-
-#[test]
-fn policies_of_lario_are_drawn_on_the_same_walks() {
-    let folder = Folder::new("lario");
-    folder.write("waves.off", waves_off());
-    let paper = |flags: &[&str]| {
-        let flags = [&["paper", "lario", "waves.off", "--frames", "40"], flags].concat();
-        folder.run(&flags)
-    };
-    let run = paper(&["--tolerance", ".3", "--pictures", "drawn", "--json"]);
-    assert_eq!(run.code(), 0, "{}", run.err());
-    let json = run.json();
-    assert_eq!(json["table_1"][0]["mesh"], "waves");
-    assert_eq!(json["table_1"][0]["faces"], 5000);
-
-    // Three paths at two tolerances. A standard vertex array sends all, and nobody fewer than the fewest.
-    let rows = json["table_2"].as_array().unwrap();
-    assert_eq!(rows.len(), 6);
-    for row in rows {
-        let number = |name: &str| row[name].as_u64().unwrap();
-        let inserts = |policy: &str| row["inserts"][policy].as_u64().unwrap();
-        assert_eq!(inserts("LRU"), number("distinct_vertices"), "all fit");
-        assert_eq!(number("fewest_inserts"), number("distinct_vertices"));
-        assert!(inserts("FA") >= inserts("LRU"));
-        assert!(inserts("vertex array") > 20 * inserts("LRU"));
-        assert_eq!(row["ordered"], true);
-        let reason = row["order"].as_str().unwrap();
-        assert!(reason.starts_with("yes: all vertices fit"), "{reason}");
-
-        // The figures are of the same walks.
-        let is_same = |it: &&serde_json::Value| {
-            ["path", "tolerance"]
-                .iter()
-                .all(|name| it[name] == row[name])
-        };
-        let figure = json["figure_8"]["rows"].as_array().unwrap();
-        let parts = figure.iter().find(is_same).unwrap();
-        let parts = parts["first_frame_and_parts"].as_array().unwrap().iter();
-        let sum: u64 = parts.map(|part| part["LRU"].as_u64().unwrap()).sum();
-        assert_eq!(sum, inserts("LRU"));
-        let table = json["table_3"].as_array().unwrap();
-        let bytes = table.iter().filter(is_same);
-        let bytes: Vec<f64> = bytes
-            .map(|it| it["vertex_bytes"].as_f64().unwrap())
-            .collect();
-        let of_lru = 36.0 * inserts("LRU") as f64 / 40.0;
-        assert!((bytes[2] - of_lru).abs() < 1e-6, "{bytes:?}, {of_lru}");
-    }
-
-    // Pictures of the second tolerance, which replace none of others.
-    let files = json["files"].as_array().unwrap();
-    assert_eq!(files.len(), 6);
-    assert!(
-        folder
-            .read("drawn/figure-7a-1-waves.svg")
-            .starts_with(b"<svg")
-    );
-    let again = ["--tolerance", ".3", "--pictures", "drawn", "--quiet"];
-    assert_eq!(paper(&again).code(), 0);
-    folder.write("drawn/figure-8c-1-waves.svg", "<svg>a drawing</svg>");
-    let refused = paper(&again);
-    assert_eq!(refused.code(), 2);
-    assert!(refused.err().contains("--force"), "{}", refused.err());
-
-    // What is asked for is looked at first.
-    assert_eq!(paper(&["--tolerance", "0"]).code(), 2);
-    assert_eq!(folder.run(&["paper", "lario"]).code(), 2);
-    let nothing = folder.run(&["paper", "lario", "--data", "."]);
-    assert_eq!(nothing.code(), 1);
-    assert!(nothing.err().contains("dragon.ply"), "{}", nothing.err());
-    folder.write("dragon.off", waves_off());
-    let found = folder.run(&["paper", "lario", "--data", ".", "--frames", "2", "--json"]);
-    assert_eq!(found.json()["table_1"][0]["mesh"], "dragon*");
 }

@@ -3,7 +3,7 @@
 use crate::{Folder, data_folder};
 
 /// Waves over 65 by 49 places as a grey image, with a place without a height if wanted.
-fn waves_pgm(has_void: bool) -> String {
+pub(crate) fn waves_pgm(has_void: bool) -> String {
     let height = |i: u32| {
         let [x, y] = [i % 65, i / 65].map(f64::from);
         let height = 1000.0 + 300.0 * (0.21 * x).sin() * (0.17 * y).cos() + 40.0 * (0.9 * x).sin();

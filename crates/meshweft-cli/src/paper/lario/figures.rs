@@ -1,10 +1,10 @@
-//! Figures 7 and 8 as numbers.
+//! Figures 7 and 8, and those like them of terrain, 10 and 11, as numbers.
 
-use meshweft::operations::{LodWalkReport, WalkFrame, WalkQuantity};
+use meshweft::operations::{WalkFrame, WalkQuantity, WalkSummary};
 use serde_json::{Value, json};
 
-use super::tables::named;
-use super::walked::{NAMES, PathWalk, Walked};
+use super::tables::{all, named};
+use super::walked::{NAMES, Walked};
 use crate::paper::figure::{Figure, head};
 
 /// The parts of a frame's time, as the paper divides it; the rendering is not measured.
@@ -17,20 +17,20 @@ const STAGES: [(&str, WalkQuantity); 3] = [
 /// Parts of a path, of as many frames each.
 const PARTS: usize = 5;
 
-/// Times of a frame.
-pub(super) fn fig_7(walked: &[Walked]) -> Figure {
+/// Times of a frame. `kind` is what it is that is walked around or over.
+pub(super) fn times(kind: &str, walked: &[&Walked]) -> Figure {
     let mut rows = vec![head(&["", "px", "path", "policy"])];
     for (name, _) in STAGES {
         rows[0].extend([format!("{name}: first"), "median".into(), "worst".into()]);
     }
     let mut json = Vec::new();
     for (it, walk) in all(walked) {
-        for (name, report) in NAMES.into_iter().zip(&walk.reports) {
-            let summaries = STAGES.map(|(_, quantity)| report.summary(quantity));
+        for (name, frames) in NAMES.into_iter().zip(&walk.frames) {
+            let summaries = STAGES.map(|(_, quantity)| WalkSummary::of(frames, quantity));
             let mut row = vec![
                 it.name.clone(),
                 walk.tolerance.to_string(),
-                format!("{}*", walk.letter()),
+                format!("{}*", walk.letter),
                 name.to_owned(),
             ];
             for summary in summaries {
@@ -43,7 +43,7 @@ pub(super) fn fig_7(walked: &[Walked]) -> Figure {
                 ((*stage).to_owned(), times)
             });
             json.push(json!({
-                "mesh": it.name, "tolerance": walk.tolerance, "path": walk.letter(), "policy": name,
+                kind: it.name, "tolerance": walk.tolerance, "path": walk.letter, "policy": name,
                 "milliseconds": Value::Object(stages.collect()),
             }));
         }
@@ -58,17 +58,21 @@ pub(super) fn fig_7(walked: &[Walked]) -> Figure {
 }
 
 /// Vertices that are inserted, along the path.
-pub(super) fn fig_8(walked: &[Walked]) -> Figure {
+pub(super) fn along_the_path(kind: &str, walked: &[&Walked]) -> Figure {
     let mut rows = vec![head(&["", "px", "path", "policy", "first frame"])];
     rows[0].extend((1..=PARTS).map(|part| format!("{part}/{PARTS}")));
     let mut json = Vec::new();
     for (it, walk) in all(walked) {
-        let parts: Vec<[u64; 1 + PARTS]> = walk.reports.iter().map(inserts_by_part).collect();
+        let parts: Vec<[u64; 1 + PARTS]> = walk
+            .frames
+            .iter()
+            .map(|frames| inserts_by_part(frames))
+            .collect();
         for (name, parts) in NAMES.into_iter().zip(&parts) {
             let mut row = vec![
                 it.name.clone(),
                 walk.tolerance.to_string(),
-                format!("{}*", walk.letter()),
+                format!("{}*", walk.letter),
                 name.to_owned(),
             ];
             row.extend(parts.iter().map(u64::to_string));
@@ -79,7 +83,7 @@ pub(super) fn fig_8(walked: &[Walked]) -> Figure {
             named(&values)
         });
         json.push(json!({
-            "mesh": it.name, "tolerance": walk.tolerance, "path": walk.letter(),
+            kind: it.name, "tolerance": walk.tolerance, "path": walk.letter,
             "first_frame_and_parts": of_part.collect::<Vec<_>>(),
         }));
     }
@@ -94,10 +98,10 @@ pub(super) fn fig_8(walked: &[Walked]) -> Figure {
 }
 
 /// In the first frame, and in each part of the others.
-fn inserts_by_part(report: &LodWalkReport) -> [u64; 1 + PARTS] {
+fn inserts_by_part(frames: &[WalkFrame]) -> [u64; 1 + PARTS] {
     let mut sums = [0; 1 + PARTS];
-    let later = report.frames.len().saturating_sub(1).max(1);
-    for (number, WalkFrame { inserts, .. }) in report.frames.iter().enumerate() {
+    let later = frames.len().saturating_sub(1).max(1);
+    for (number, WalkFrame { inserts, .. }) in frames.iter().enumerate() {
         let part = match number.checked_sub(1) {
             None => 0,
             Some(number) => 1 + number * PARTS / later,
@@ -105,11 +109,4 @@ fn inserts_by_part(report: &LodWalkReport) -> [u64; 1 + PARTS] {
         sums[part] += *inserts as u64;
     }
     sums
-}
-
-/// Every walk with its mesh.
-fn all(walked: &[Walked]) -> impl Iterator<Item = (&Walked, &PathWalk)> {
-    walked
-        .iter()
-        .flat_map(|it| it.walks.iter().map(move |walk| (it, walk)))
 }

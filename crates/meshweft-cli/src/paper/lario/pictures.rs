@@ -1,4 +1,4 @@
-//! Figures 7 and 8 over the frames, as SVG files.
+//! Figures 7 and 8, and 10 and 11, over the frames, as SVG files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,35 +6,50 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use meshweft::operations::{WalkFrame, WalkQuantity};
 
-use super::walked::{NAMES, Named, PATHS, PathWalk, Walked, build_milliseconds, bytes};
+use super::walked::{NAMES, PathWalk, Walked, build_milliseconds, bytes};
 use crate::plot::{self, Axis, Curve};
 use crate::run::side_file::{PICTURE, PICTURE_NAME};
 
 /// Points of a curve at most.
 const POINTS: usize = 250;
 
+/// The two figures of a renderer.
+pub(super) type Figures = [&'static str; 2];
+
 /// Refuses a folder in which one of the files is there and no such picture.
-pub(super) fn check(folder: &Path, meshes: &[Named], force: bool) -> Result<()> {
-    for (number, named) in meshes.iter().enumerate() {
-        for (_, letter) in &PATHS {
-            for figure in ["7", "8"] {
-                let path = file(folder, figure, number, &named.stem(), letter);
-                PICTURE.check(&path, force)?;
+pub(super) fn check(
+    folder: &Path,
+    figures: Figures,
+    stems: &[String],
+    letters: &[&str],
+    force: bool,
+) -> Result<()> {
+    for (number, stem) in stems.iter().enumerate() {
+        for letter in letters {
+            for figure in figures {
+                PICTURE.check(&file(folder, figure, number, stem, letter), force)?;
             }
         }
     }
     Ok(())
 }
 
-/// Writes the pictures of the walks with the paper's load into a folder; their paths.
-pub(super) fn write(folder: &Path, walked: &[Walked], load: f64) -> Result<Vec<String>> {
+/// Writes the pictures of the walks with a tolerance into a folder; their paths.
+pub(super) fn write(
+    folder: &Path,
+    figures: Figures,
+    walked: &[&Walked],
+    tolerance: Option<f64>,
+) -> Result<Vec<String>> {
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let mut written = Vec::new();
     for (number, it) in walked.iter().enumerate() {
-        let loaded = it.walks.iter().filter(|walk| walk.tolerance == load);
-        for walk in loaded {
-            for (figure, svg) in [("7", fig_7(it, walk)), ("8", fig_8(it, walk))] {
-                let path = file(folder, figure, number, &it.stem, walk.letter());
+        let is_drawn = |walk: &&PathWalk| tolerance.is_none_or(|it| walk.tolerance == it);
+        for walk in it.walks.iter().filter(is_drawn) {
+            let [times, inserts] = figures;
+            for (figure, svg) in [(times, of_times(it, walk)), (inserts, of_inserts(it, walk))] {
+                let path = file(folder, figure, number, &it.stem, walk.letter);
+                let svg = described(&svg, &format!("Fig. {figure}"));
                 fs::write(&path, svg).with_context(|| path.display().to_string())?;
                 written.push(path.display().to_string());
             }
@@ -43,7 +58,7 @@ pub(super) fn write(folder: &Path, walked: &[Walked], load: f64) -> Result<Vec<S
     Ok(written)
 }
 
-/// Where a picture goes; two meshes of one name have their own.
+/// Where a picture goes; two of one name have their own.
 fn file(folder: &Path, figure: &str, number: usize, stem: &str, letter: &str) -> PathBuf {
     let plain = stem
         .chars()
@@ -57,11 +72,11 @@ fn file(folder: &Path, figure: &str, number: usize, stem: &str, letter: &str) ->
 }
 
 /// Times above, bytes below.
-fn fig_7(it: &Walked, walk: &PathWalk) -> String {
+fn of_times(it: &Walked, walk: &PathWalk) -> String {
     let update = |frame: &WalkFrame| WalkQuantity::UpdateMilliseconds.of(frame);
     let mut times = curves(walk, build_milliseconds);
-    times.push(curve("level of detail", &walk.reports[0].frames, update));
-    let frames = walk.reports[0].frames.len();
+    times.push(curve("level of detail", &walk.frames[0], update));
+    let frames = walk.frames[0].len();
     let upper = picture(
         &title(it, walk, "slots and indices"),
         "milliseconds",
@@ -74,36 +89,28 @@ fn fig_7(it: &Walked, walk: &PathWalk) -> String {
         &curves(walk, bytes),
         frames,
     );
-    described(&plot::stacked(&upper, &lower), "Fig. 7")
+    plot::stacked(&upper, &lower)
 }
 
 /// Vertices inserted.
-fn fig_8(it: &Walked, walk: &PathWalk) -> String {
+fn of_inserts(it: &Walked, walk: &PathWalk) -> String {
     let curves = curves(walk, |frame| frame.inserts as f64);
     let title = title(it, walk, "vertices inserted");
-    let svg = picture(
-        &title,
-        "vertices a frame",
-        &curves,
-        walk.reports[0].frames.len(),
-    );
-    described(&svg, "Fig. 8")
+    picture(&title, "vertices a frame", &curves, walk.frames[0].len())
 }
 
 fn title(it: &Walked, walk: &PathWalk, what: &str) -> String {
     format!(
         "{}, path {}, {} px: {what}",
-        it.name,
-        walk.letter(),
-        walk.tolerance
+        it.name, walk.letter, walk.tolerance
     )
 }
 
 /// One of each policy.
 fn curves(walk: &PathWalk, of: impl Fn(&WalkFrame) -> f64) -> Vec<Curve> {
-    let policies = NAMES.into_iter().zip(&walk.reports);
+    let policies = NAMES.into_iter().zip(&walk.frames);
     policies
-        .map(|(name, report)| curve(name, &report.frames, &of))
+        .map(|(name, frames)| curve(name, frames, &of))
         .collect()
 }
 

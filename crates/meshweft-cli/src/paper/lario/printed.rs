@@ -33,3 +33,22 @@ pub(super) const MODELS: [PrintedModel; 3] = [
 
 /// The paper's tolerance in pixels.
 pub(super) const TOLERANCE: f64 = 1.5;
+
+/// The paper's terrain.
+pub(super) struct PrintedGround {
+    pub(super) name: &'static str,
+    pub(super) vertices: usize,
+    /// Tiles of the same place that are looked for.
+    pub(super) files: &'static [&'static str],
+    /// Table 4: inserts of first available, LRU and LRU with the queue, for each path.
+    pub(super) inserts: [[u64; 3]; 3],
+    /// Table 5: how much faster the rendering stage is with these three, for each path.
+    pub(super) faster: [[f64; 3]; 3],
+}
+
+#[rustfmt::skip]
+pub(super) const GROUND: PrintedGround = PrintedGround {
+    name: "Puget Sound", vertices: 2_563_548, files: &["N47W122", "N47W123", "N48W123"],
+    inserts: [[171_873, 169_928, 169_972], [302_288, 286_331, 281_707], [290_747, 66_453, 66_436]],
+    faster: [[2.68, 1.69, 1.13], [2.7, 1.65, 1.06], [2.71, 2.24, 1.9]],
+};
