@@ -7,6 +7,7 @@ use flate2::write::GzEncoder;
 
 use super::{error, samples_of_all_kinds};
 use crate::files::height_map::{HeightMap, HeightMapOptions};
+use crate::random::{SplitMix64, from_environment};
 
 #[test]
 fn what_is_no_height_map_is_said() {
@@ -74,29 +75,29 @@ fn a_file_that_is_cut_anywhere_is_an_error() {
     }
 }
 
+/// `MESHWEFT_CASES=1000000 cargo test --release -p meshweft --all-features --lib -- --nocapture changed_bytes_do_no_harm` takes
+/// a million files.
 #[test]
 fn changed_bytes_do_no_harm() {
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut random = |below: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        usize::try_from(state >> 33).unwrap() % below
-    };
-    for (name, bytes) in samples_of_all_kinds() {
-        for _ in 0..1500 {
-            let mut changed = bytes.clone();
-            for _ in 0..=random(4) {
-                let at = random(changed.len());
-                changed[at] = match random(3) {
-                    0 => changed[at] ^ 1 << random(8),
-                    1 => [0, 255, b'9', b' '][random(4)],
-                    _ => u8::try_from(random(256)).unwrap(),
-                };
-            }
-            check(name, &changed);
+    let mut random = SplitMix64(from_environment("MESHWEFT_SEED", 47));
+    let samples = samples_of_all_kinds();
+    let cases = from_environment("MESHWEFT_CASES", 20_000);
+    let mut read = 0;
+    for _ in 0..cases {
+        let (name, bytes) = &samples[random.below(samples.len())];
+        let mut changed = bytes.clone();
+        for _ in 0..=random.below(4) {
+            let at = random.below(changed.len());
+            changed[at] = match random.below(3) {
+                0 => changed[at] ^ 1 << random.below(8),
+                1 => [0, 255, b'9', b' '][random.below(4)],
+                _ => u8::try_from(random.below(256)).unwrap(),
+            };
         }
+        read += u64::from(check(name, &changed));
     }
+    println!("{cases} changed height maps: {read} are read, the others refused");
+    assert!(read > 0 && read < cases);
 }
 
 #[test]
