@@ -62,12 +62,14 @@ enum Verb {
     /// Measure how far a terrain is off, at every height
     ///
     /// On a path: in pixels, for every height in the picture, in some of its frames. With --error: in metres, for every height, of the surface of
-    /// that error. Also counted are places that no face covers, voids that are covered, and cracks. Exits with 1 if any height is farther off than
-    /// asked for, or any of these is not 0. Nothing is taken from what the file says of its errors. SOURCE are the height maps of which the file was built,
-    /// read again with the same flags; without them it is compared with its own heights.
+    /// that error. Also counted are places that no face covers, voids that are covered, heights in two faces, turned faces, and cracks. Exits with 1 if
+    /// any height is farther off than asked for, or any of these is not 0. Nothing is taken from what the file says of its errors. SOURCE are the
+    /// height maps or the points of which the file was built, read again with the same flags; without them it is compared with its own heights, over
+    /// points with those of its vertices that are points.
     ///
     ///   meshweft terrain verify puget.mwt N47W123.hgt.gz N48W123.hgt.gz --fill --path fly --tolerance 1
     ///   meshweft terrain verify puget.mwt --error 10 --json
+    ///   meshweft terrain verify scan.mwt scan.ply --up z --error 0.5
     #[command(verbatim_doc_comment)]
     Verify(Verify),
 }

@@ -19,10 +19,10 @@ use crate::walks::cameras;
 
 #[derive(Debug, Args)]
 pub(super) struct Verify {
-    /// A .mwt file that terrain build wrote, or a height map
+    /// A .mwt file that terrain build wrote, or a height map, or points of a mesh file
     #[arg(value_name = "FILE")]
     input: PathBuf,
-    /// The height maps to compare with: those that the file was built of
+    /// The height maps or points to compare with: those that the file was built of. Without them, the terrain is compared with its own heights
     #[arg(value_name = "SOURCE")]
     sources: Vec<PathBuf>,
     /// Measure the surface of this error, in metres, instead of frames
@@ -136,8 +136,9 @@ fn text(report: &TerrainVerifyReport) -> String {
     };
     let mut sums = [0; 3];
     for surface in &report.surfaces {
-        let uncovered = surface.uncovered + surface.covered_voids;
-        let counts = [surface.faces, uncovered, surface.cracks];
+        let uncovered = surface.uncovered + surface.covered_voids + surface.overlaps;
+        let cracks = surface.cracks + surface.turned;
+        let counts = [surface.faces, uncovered, cracks];
         sums = [0, 1, 2].map(|i| sums[i] + counts[i]);
         let number = surface.number.to_string();
         add(number, counts, &surface.errors, surface.worst_metres);
@@ -149,9 +150,26 @@ fn text(report: &TerrainVerifyReport) -> String {
         report.worst_metres(),
     );
     format!(
-        "{}: {}\n{looked_at}\n{}",
+        "{}: {}\n{}\n{looked_at}\n{}",
         report.file.display(),
         heights::told(&report.terrain),
+        compared(report),
         columns(&rows)
     )
+}
+
+/// What it was compared with.
+fn compared(report: &TerrainVerifyReport) -> String {
+    let count = report.heights;
+    if !report.is_own {
+        let files = report.compared.iter().map(|it| it.display().to_string());
+        let files: Vec<String> = files.collect();
+        return format!("compared with {count} heights of {}", files.join(", "));
+    }
+    match report.terrain.grid_size {
+        Some(_) => format!("compared with its own {count} heights: no others were given"),
+        None => {
+            format!("compared with its own {count} vertices that are points: no others were given")
+        }
+    }
 }

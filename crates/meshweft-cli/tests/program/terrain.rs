@@ -309,6 +309,46 @@ fn vertices_of_a_mesh_become_a_terrain() {
     assert!(all.contains("v 2 4 -2"), "{all}");
     let walk = ["terrain", "walk", "hill.mwt", "--frames", "5", "--json"];
     assert_eq!(folder.run(&walk).json()["frame_count"], 5);
+
+    // Compared with its own points and with those of the file, in metres and on a path.
+    let verify = |flags: &[&str]| {
+        let verb = ["terrain", "verify", "hill.mwt"];
+        folder.run(&[&verb[..], flags].concat())
+    };
+    let run = verify(&["--error", "1"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    let told = "compared with its own 5 vertices that are points";
+    assert!(run.out().contains(told), "{}", run.out());
+    let run = verify(&["hill.obj", "--up", "z", "--frames", "3"]);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    let told = "compared with 5 heights of hill.obj";
+    assert!(run.out().contains(told), "{}", run.out());
+    folder.write("high.obj", "v 1 0 1\nv 4 0 1\nv 3 1 9\nf 1 2 3\n");
+    let run = verify(&["high.obj", "--up", "z", "--error", "1"]);
+    assert_eq!(run.code(), 1, "{}", run.out());
+    let told = "compared with 3 heights of high.obj";
+    assert!(run.out().contains(told), "{}", run.out());
+    let told = "heights farther off than the tolerance: 1, by ";
+    assert!(run.err().contains(told), "{}", run.err());
+    folder.write("flat.pgm", "P2 2 2 9 1 1 1 1");
+    let run = verify(&["flat.pgm", "--spacing", "1"]);
+    let told = "this terrain is over points, and the heights to compare with are height maps";
+    assert!(run.code() == 1 && run.err().contains(told), "{}", run.err());
+
+    // What is read of points alone, and of those far from 0.
+    folder.write("alone.obj", "v 0 0 1\nv 4 0 1\nv 0 4 1\n");
+    let run = folder.run(&["terrain", "build", "alone.obj", "-o", "alone.mwt"]);
+    assert!(
+        run.err().contains("add a face of any three"),
+        "{}",
+        run.err()
+    );
+    let far = "v 500000.1 1 5200000.1\nv 500010 1 5200000\nv 500000.1 2 5200000.2\nf 1 2 3\nv 500005 3 5200009\n";
+    folder.write("far.obj", far);
+    let run = folder.run(&["terrain", "build", "far.obj", "-o", "far.mwt"]);
+    let told = "which are 0.5 apart there, and that is the grid that the points are on; points at the place of another one: 1.";
+    assert!(run.code() == 0 && run.err().contains(told), "{}", run.err());
+
     // y is up otherwise, and these points are on a line then.
     folder.write("line.obj", "v 0 0 1\nv 4 0 1\nv 8 4 1\nf 1 2 3\n");
     let run = folder.run(&["terrain", "build", "line.obj", "-o", "line.mwt"]);

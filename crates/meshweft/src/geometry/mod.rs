@@ -10,6 +10,7 @@ pub(crate) mod morton;
 
 mod normals;
 mod samples;
+pub(crate) mod signs;
 mod surface;
 pub(crate) mod triangle;
 mod vector;

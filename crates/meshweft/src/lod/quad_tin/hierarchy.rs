@@ -118,6 +118,18 @@ impl QuadTin {
         }
     }
 
+    /// Whether a vertex is a height of the input. Over points, a few are not, and no error says how far those are from a surface.
+    ///
+    /// # Panics
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn is_input(&self, vertex: u32) -> bool {
+        match &self.tree {
+            TinTree::Grid(_) => self.height(vertex).is_some(),
+            TinTree::Points(points) => !points.is_steiner[vertex as usize],
+        }
+    }
+
     /// How many faces there are at full detail.
     #[must_use]
     pub fn face_count(&self) -> u64 {

@@ -19,7 +19,7 @@
 //!   drawn with few faces; those of 2^k places have single cells along two borders.
 //! - **Points.** A [`PointHierarchy`] is over points that are no grid: what is cut where, see `points`.
 //! - **Storage.** Of a grid only heights, errors and radii are kept, eight bytes a vertex; which triangles there are follows from
-//!   columns and rows. Over points it is 36 bytes. A `.mwt` file has them in blocks of a level and a part of the grid (`stored`), and a [`StreamedTin`] reads
+//!   columns and rows. Over points it is 36 bytes, and whether it is a point of the input. A `.mwt` file has them in blocks of a level and a part of the grid (`stored`), and a [`StreamedTin`] reads
 //!   those that a surface needs.
 //!
 //! Read `triangle` and `grid_square` first; then `grid_build`, how errors come about, and `descent`.
@@ -43,12 +43,11 @@ mod point_input;
 mod point_lists;
 mod point_places;
 #[cfg(test)]
-mod point_sets;
+pub(crate) mod point_sets;
 #[cfg(test)]
 mod point_tests;
 mod points;
 mod rounded;
-mod signs;
 mod stored;
 mod stored_grid;
 mod stored_points;

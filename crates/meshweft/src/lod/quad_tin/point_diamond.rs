@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::signs::turn;
+use crate::geometry::signs::turn;
 
 /// The triangles on both sides of the line from `left` to `right`; at the border there is only the first one.
 #[derive(Debug, Clone, Copy)]

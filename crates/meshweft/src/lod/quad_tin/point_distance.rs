@@ -1,7 +1,7 @@
 //! How far points are above or below a triangle.
 
 use super::point_lists::ListedPoint;
-use super::signs::{self, AREA_ROUNDING, product_of_two, sum_of_two};
+use crate::geometry::signs::{self, AREA_ROUNDING, product_of_two, sum_of_two};
 
 /// The plane of a triangle that is not seen from its side.
 ///

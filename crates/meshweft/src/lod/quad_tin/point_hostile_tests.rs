@@ -44,31 +44,8 @@ fn very_large_and_very_small_areas_are_cut_as_others_are() {
 
 #[test]
 fn spirals_bursts_and_ladders_are_whole() {
-    let mut random = SplitMix64(2);
-    // Towards a point, by a factor of 10^30.
-    let spiral = |i: usize| {
-        let [angle, away] = [0.3 * i as f32, 0.9_f32.powi(i32::try_from(i).unwrap())];
-        [away * angle.cos(), away, away * angle.sin()]
-    };
-    let spiral: Vec<_> = (0..650).map(spiral).collect();
-    // A few numbers around one point.
-    let burst: Vec<_> = (0..400)
-        .map(|_| {
-            let [x, y, z] = [0, 1, 2].map(|_| random.below(16) as f32);
-            [1e6 + x / 16.0, y, -2e6 - z / 8.0]
-        })
-        .collect();
-    // Two lines that are a number apart.
-    let ladder: Vec<_> = (0..300)
-        .map(|i| {
-            [
-                i as f32,
-                (i % 7) as f32,
-                if i % 2 == 0 { 1e7 } else { 1e7 + 1.0 },
-            ]
-        })
-        .collect();
-    for (name, points) in [("spiral", spiral), ("burst", burst), ("ladder", ladder)] {
+    for (name, make) in point_sets::DIFFICULT_SETS {
+        let points = make(500, &mut SplitMix64(2));
         let [left_out, depth] = checked(&points);
         println!(
             "{name}: {left_out} of {} left out, depth {depth}",

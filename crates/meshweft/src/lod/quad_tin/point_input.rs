@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::fmt;
 
 use super::point_lists::ListedPoint;
-use super::signs::turn;
 use super::triangle::NONE;
+use crate::geometry::signs::turn;
 use crate::index::index32;
 
 /// What became of the points of an input.

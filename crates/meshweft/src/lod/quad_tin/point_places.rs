@@ -2,8 +2,8 @@
 
 use super::point_diamond::PointDiamond;
 use super::point_lists::ListedPoint;
-use super::signs::{exact_area, turn};
 use super::triangle::NONE;
+use crate::geometry::signs::{exact_area, turn};
 
 /// How far the numbers that an `f32` can be are apart in the west or east, and in the north or south, of a terrain.
 #[derive(Debug, Clone, Copy, PartialEq)]

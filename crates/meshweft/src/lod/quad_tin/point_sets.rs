@@ -6,7 +6,7 @@ use crate::index::index32;
 use crate::random::SplitMix64;
 
 /// Numbers are multiples of 1/8192 that double, and sums of whose products 128 bits, hold exactly; so are all places between them.
-pub(super) const UNIT: f64 = 1.0 / 8192.0;
+pub(crate) const UNIT: f64 = 1.0 / 8192.0;
 /// The corner and the side of the square that points are in.
 const ORIGIN: f64 = 4096.0;
 const SIDE: f64 = 4000.0;
@@ -32,7 +32,7 @@ fn side_of(count: usize) -> usize {
     count.isqrt()
 }
 
-pub(super) fn jittered(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn jittered(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     let side = side_of(count);
     let at = |i: usize, by: f64| (i as f64 + 0.2 + 0.6 * by) / side as f64;
     let places = (0..side * side).map(|i| {
@@ -42,13 +42,13 @@ pub(super) fn jittered(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     places.collect()
 }
 
-pub(super) fn scattered(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn scattered(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     let places = (0..count).map(|_| point(fraction(random), fraction(random)));
     places.collect()
 }
 
 /// 50 clusters of different widths, each denser in its middle.
-pub(super) fn clusters(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn clusters(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     let middles: Vec<[f64; 3]> = (0..50)
         .map(|_| {
             let [u, v, width] = [fraction(random), fraction(random), fraction(random)];
@@ -65,7 +65,7 @@ pub(super) fn clusters(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
 }
 
 /// Lines as a scanner flies them: points are ten times as close along a line as lines are.
-pub(super) fn scan_lines(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn scan_lines(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     let lines = side_of(count / 10).max(2);
     let along = count / lines;
     let places = (0..lines * along).map(|i| {
@@ -80,7 +80,7 @@ pub(super) fn scan_lines(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]>
 }
 
 /// Lines of equal height around a hill, with points ten times as close as lines are.
-pub(super) fn contours(count: usize, _: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn contours(count: usize, _: &mut SplitMix64) -> Vec<[f32; 3]> {
     // Around a circle of radius n there are 2π n times ten points.
     let lines = (count / 31).isqrt() + 1;
     let mut points = Vec::new();
@@ -96,7 +96,7 @@ pub(super) fn contours(count: usize, _: &mut SplitMix64) -> Vec<[f32; 3]> {
     points
 }
 
-pub(super) fn circle(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn circle(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     let places = (0..count).map(|i| {
         let angle = TAU * i as f64 / count as f64;
         let [x, _, z] = point(0.5 + 0.5 * angle.cos(), 0.5 + 0.5 * angle.sin());
@@ -106,7 +106,7 @@ pub(super) fn circle(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
 }
 
 /// Every point once more, and each third one with another height.
-pub(super) fn repeated(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn repeated(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     let mut points = scattered(count / 2, random);
     for i in 0..points.len() {
         let [x, y, z] = points[i];
@@ -116,7 +116,7 @@ pub(super) fn repeated(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
 }
 
 /// Half of the points in a thousandth of the square's side.
-pub(super) fn two_scales(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn two_scales(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     let mut points = scattered(count / 2, random);
     let places = (0..count / 2).map(|_| {
         let [u, v] = [fraction(random), fraction(random)];
@@ -127,7 +127,7 @@ pub(super) fn two_scales(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]>
 }
 
 /// On the four sides and the two diagonals of the square only.
-pub(super) fn on_lines(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+pub(crate) fn on_lines(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
     let places = (0..count).map(|i| {
         // A multiple of what both axes are multiples of.
         let along = random.below(1 << 22) as f64 / (1 << 22) as f64;
@@ -145,7 +145,7 @@ pub(super) fn on_lines(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
 }
 
 /// A grid with this number of points a side, row by row.
-pub(super) fn grid(side: usize) -> Vec<[f32; 3]> {
+pub(crate) fn grid(side: usize) -> Vec<[f32; 3]> {
     let at = |i: usize| i as f64 / (side - 1) as f64;
     let places = (0..side * side).map(|i| {
         let [_, height, _] = point(at(i % side), at(i / side));
@@ -156,10 +156,10 @@ pub(super) fn grid(side: usize) -> Vec<[f32; 3]> {
 }
 
 /// Makes a number of points.
-pub(super) type MakePoints = fn(usize, &mut SplitMix64) -> Vec<[f32; 3]>;
+pub(crate) type MakePoints = fn(usize, &mut SplitMix64) -> Vec<[f32; 3]>;
 
 /// Every kind of set in which places between points are exact.
-pub(super) const SETS: [(&str, MakePoints); 10] = [
+pub(crate) const SETS: [(&str, MakePoints); 10] = [
     ("jittered grid", jittered),
     ("scattered", scattered),
     ("clusters", clusters),
@@ -171,3 +171,34 @@ pub(super) const SETS: [(&str, MakePoints); 10] = [
     ("on lines", on_lines),
     ("full grid", |count, _| grid(side_of(count))),
 ];
+
+/// Sets with which an `f32` is at its end.
+pub(crate) const DIFFICULT_SETS: [(&str, MakePoints); 3] =
+    [("spiral", spiral), ("burst", burst), ("ladder", ladder)];
+
+/// Towards a point, by a factor of 10^30 for 650 points.
+fn spiral(count: usize, _: &mut SplitMix64) -> Vec<[f32; 3]> {
+    let place = |i: u32| {
+        let [angle, away] = [0.3 * f64::from(i), 0.9_f64.powf(f64::from(i))];
+        [away * angle.cos(), away, away * angle.sin()].map(single)
+    };
+    (0..index32(count)).map(place).collect()
+}
+
+/// A few numbers around one point.
+fn burst(count: usize, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+    let mut place = || {
+        let [x, y, z] = [0, 1, 2].map(|_| random.below(16) as f32);
+        [1e6 + x / 16.0, y, -2e6 - z / 8.0]
+    };
+    (0..count).map(|_| place()).collect()
+}
+
+/// Two lines that are a number apart.
+fn ladder(count: usize, _: &mut SplitMix64) -> Vec<[f32; 3]> {
+    let place = |i: usize| {
+        let z = if i.is_multiple_of(2) { 1e7 } else { 1e7 + 1.0 };
+        [i as f32, (i % 7) as f32, z]
+    };
+    (0..count).map(place).collect()
+}

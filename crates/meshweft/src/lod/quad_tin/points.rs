@@ -10,7 +10,7 @@
 //!   one beside it has to be. So over a grid of 2^k + 1 points a side there is no Steiner point, and the hierarchy is the regular one.
 //! - **Where points are looked for.** Each triangle has the list of those inside, and all lists of a level stand one after the other:
 //!   triangles are cut level by level, so no other level has points.
-//! - **Numbers.** Signs are exact (`signs`), places are `f32`. Near the last bits of these a diamond may have no place inside, so
+//! - **Numbers.** Signs are exact (`geometry::signs`), places are `f32`. Near the last bits of these a diamond may have no place inside, so
 //!   a triangle is kept wider than two numbers as long as that is possible. What cannot be cut keeps its points, which
 //!   are counted as left out, with their distance from the surface.
 //! - **Errors.** Those of all input points in the triangle that covers them, never below the true ones (`point_distance`).
@@ -68,8 +68,10 @@ impl PointNode {
 #[derive(Debug, Clone)]
 pub struct PointHierarchy {
     pub(super) nodes: Vec<PointNode>,
-    /// The input point that each vertex is; [`NONE`] for a Steiner point.
+    /// The input point that each vertex is; [`NONE`] for a Steiner point. Empty if it was read from a file.
     pub(super) sources: Vec<u32>,
+    /// Whether each vertex is no point of the input.
+    pub(super) is_steiner: Vec<bool>,
     pub(super) counts: PointCounts,
     /// What of a file was not read yet.
     pub(super) unread: UnreadPoints,

@@ -2,8 +2,8 @@
 //!
 //! Its field is the number of vertices, a varint.
 //!
-//! Blocks are 512 vertices each, in the order of their numbers: all positions, three `f32` each; all errors and all radii, `f32`; and
-//! of each vertex where the four triangles around it are cut: 0, nowhere; otherwise twice the difference of that vertex from this one, and which
+//! Blocks are 512 vertices each, in the order of their numbers: all positions, three `f32` each; all errors and all radii, `f32`;
+//! of each vertex whether it is no point of the input, a bit each, the lowest of a byte first; and of each vertex where the four triangles around it are cut: 0, nowhere; otherwise twice the difference of that vertex from this one, and which
 //! side of its diamond the triangle is, as a varint.
 
 use std::ops::Range;
@@ -67,6 +67,10 @@ impl StoredTree for PointHierarchy {
         nodes.iter().for_each(|it| put_f32s(bytes, it.position));
         nodes.iter().for_each(|it| put_f32s(bytes, [it.error]));
         nodes.iter().for_each(|it| put_f32s(bytes, [it.radius]));
+        for eight in self.is_steiner[vertices.clone()].chunks(8) {
+            let bits = eight.iter().rev().map(|&it| u8::from(it));
+            bytes.push(bits.fold(0, |byte, bit| byte << 1 | bit));
+        }
         for (vertex, node) in vertices.zip(nodes) {
             for child in node.children {
                 // A child has a larger number, so no difference is 0.
@@ -98,6 +102,16 @@ impl StoredTree for PointHierarchy {
         }
         for node in nodes.iter_mut() {
             node.radius = reader.length()?;
+        }
+        for eight in self.is_steiner[vertices.clone()].chunks_mut(8) {
+            let [mut byte] = reader.bytes()?;
+            for it in eight {
+                *it = byte & 1 == 1;
+                byte >>= 1;
+            }
+            if byte != 0 {
+                return Err(reader.damaged());
+            }
         }
         for (vertex, node) in vertices.zip(nodes) {
             for child in &mut node.children {
@@ -135,6 +149,7 @@ impl PointHierarchy {
         Self {
             nodes: vec![PointNode::EMPTY; vertices],
             sources: Vec::new(),
+            is_steiner: vec![false; vertices],
             counts: Default::default(),
             unread: UnreadPoints {
                 blocks: vec![true; vertices.div_ceil(BLOCK_VERTICES)],

@@ -34,6 +34,11 @@ pub enum TerrainError {
         /// The file.
         file: PathBuf,
     },
+    /// A file of vertices without a face, which is read as no mesh.
+    NoFaces {
+        /// The file.
+        file: PathBuf,
+    },
     /// A `.mwt` file is one of several, or is to be built again.
     Built {
         /// The file.
@@ -71,10 +76,12 @@ pub enum TerrainError {
         /// Why.
         error: ViewError,
     },
-    /// A terrain over points, where one over a grid is needed.
-    NoGrid {
+    /// The heights to compare with are of a grid, and the terrain is over points, or the other way round.
+    OtherKind {
         /// The terrain.
         file: PathBuf,
+        /// Whether that is over a grid.
+        is_over_grid: bool,
     },
     /// The heights to compare with are on another grid.
     OtherGrid {
@@ -107,6 +114,11 @@ impl fmt::Display for TerrainError {
                  file, a mesh file such as .ply or .obj, or a file that `meshweft terrain build` wrote",
                 file.display()
             ),
+            Self::NoFaces { file } => write!(
+                f,
+                "{}: this file has no face, and vertices alone are not read: add a face of any three of them",
+                file.display()
+            ),
             Self::Points { file, error } => write!(f, "{}: {error}", file.display()),
             Self::Mixed { file } => write!(
                 f,
@@ -133,11 +145,17 @@ impl fmt::Display for TerrainError {
                 file.display()
             ),
             Self::View { frame, error } => write!(f, "frame {frame}: {error}"),
-            Self::NoGrid { file } => write!(
-                f,
-                "{}: this terrain is over points, and only those over grids can be measured: give one that was built of height maps",
-                file.display()
-            ),
+            Self::OtherKind { file, is_over_grid } => {
+                let [own, other, give] = match is_over_grid {
+                    true => ["over a grid", "points", "height maps"],
+                    false => ["over points", "height maps", "points or meshes"],
+                };
+                write!(
+                    f,
+                    "{}: this terrain is {own}, and the heights to compare with are {other}: give the {give} that it was built of",
+                    file.display()
+                )
+            }
             Self::OtherGrid {
                 file,
                 size: [columns, rows],

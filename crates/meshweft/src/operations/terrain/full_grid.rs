@@ -1,5 +1,6 @@
 //! All heights of a grid, and what a surface is beside them: measured on the grid, without anything that a hierarchy knows.
 
+use super::surface_faults::{Coverage, Met, SurfaceFaults, SurfaceSides};
 use crate::height_grid::HeightGrid;
 use crate::lod::quad_tin::QuadTin;
 
@@ -12,26 +13,6 @@ pub(super) struct FullGrid<'a> {
     /// Of each place whether a face of full detail has a corner there.
     has_face: Vec<bool>,
     pub(super) face_count: u64,
-}
-
-/// What a surface is beside all heights.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct SurfaceFaults {
-    /// Places of full detail that no face covers.
-    pub(super) uncovered: usize,
-    /// Voids in a face, or at its corner.
-    pub(super) covered_voids: usize,
-    /// Sides of faces with more than two of them, or with one where full detail goes on.
-    pub(super) cracks: usize,
-    /// Whether the faces have the area of full detail.
-    pub(super) has_other_area: bool,
-}
-
-impl SurfaceFaults {
-    #[cfg(test)]
-    pub(super) fn is_sound(&self) -> bool {
-        *self == Self::default()
-    }
 }
 
 /// Column and row.
@@ -98,7 +79,7 @@ impl<'a> FullGrid<'a> {
         faces: &[(u32, [u32; 3])],
         mut measured: impl FnMut(usize, f64),
     ) -> SurfaceFaults {
-        let mut is_covered = vec![false; self.has_face.len()];
+        let mut coverage = Coverage::new(self.has_face.len());
         let mut faults = SurfaceFaults::default();
         let mut doubled_area = 0;
         for &(_, face) in faces {
@@ -106,6 +87,7 @@ impl<'a> FullGrid<'a> {
             let heights = face.map(|vertex| f64::from(tin.position(vertex)[1]));
             let area = doubled(corners[0], corners[1], corners[2]);
             doubled_area += area;
+            faults.turned += usize::from(area <= 0);
             let [first, last] = [0, 1].map(|axis| {
                 let along = corners.map(|it| it[axis]);
                 (along.iter().min().copied(), along.iter().max().copied())
@@ -130,8 +112,13 @@ impl<'a> FullGrid<'a> {
                         continue;
                     }
                     let number = self.number(place);
-                    if std::mem::replace(&mut is_covered[number], true) {
-                        continue;
+                    match coverage.add(number, parts.iter().all(|&part| part > 0)) {
+                        Met::First => {}
+                        Met::Again => continue,
+                        Met::Overlapping => {
+                            faults.overlaps += 1;
+                            continue;
+                        }
                     }
                     let height = f64::from(self.grid.heights()[number]);
                     if height.is_nan() {
@@ -145,28 +132,12 @@ impl<'a> FullGrid<'a> {
             }
         }
 
-        let both = self.has_face.iter().zip(&is_covered);
-        faults.uncovered = both
-            .filter(|&(&has_face, &is_covered)| has_face && !is_covered)
-            .count();
-        faults.cracks = self.cracks(faces);
+        let with_face = self.has_face.iter().enumerate().filter(|it| *it.1);
+        faults.uncovered = with_face.filter(|it| !coverage.has(it.0)).count();
+        faults.cracks = SurfaceSides::of(faces)
+            .cracks(|[from, to]| self.goes_on_beside(self.place(from), self.place(to)));
         faults.has_other_area = u64::try_from(doubled_area) != Ok(self.face_count);
         faults
-    }
-
-    /// How many sides of faces are not as they should be.
-    fn cracks(&self, faces: &[(u32, [u32; 3])]) -> usize {
-        let mut sides: Vec<[u32; 2]> = faces
-            .iter()
-            .flat_map(|&(_, [a, b, c])| [[a, b], [b, c], [c, a]])
-            .collect();
-        sides.sort_unstable();
-        let twice = sides.windows(2).filter(|pair| pair[0] == pair[1]).count();
-        let is_open = |&&[from, to]: &&[u32; 2]| sides.binary_search(&[to, from]).is_err();
-        let open = sides.iter().filter(is_open);
-        let is_crack =
-            |&&[from, to]: &&[u32; 2]| self.goes_on_beside(self.place(from), self.place(to));
-        twice + open.filter(is_crack).count()
     }
 
     /// Whether full detail has a face on the other side of a side, at any part of it.
@@ -242,6 +213,9 @@ mod tests {
                 assert!(lost.has_other_area && !lost.is_sound());
                 let twice = [faces, &faces[..1]].concat();
                 assert!(full.look_at(&tin, &twice, |_, _| {}).cracks > 0);
+                let mut turned = faces.to_vec();
+                turned[0].1.swap(0, 1);
+                assert_eq!(full.look_at(&tin, &turned, |_, _| {}).turned, 1);
             }
 
             // A coarse face among fine ones: what is beside it has a vertex in the middle of a side, but at a border.

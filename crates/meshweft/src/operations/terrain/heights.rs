@@ -133,6 +133,10 @@ impl TerrainHeights {
             })?;
             let own_notes = document.notes().iter();
             notes.extend(own_notes.map(|note| (path.clone(), note.clone())));
+            if document.meshes().is_empty() {
+                let file = path.clone();
+                return Err(TerrainError::NoFaces { file });
+            }
             for (_, mesh) in plain_meshes(&document)? {
                 points.extend_from_slice(mesh.positions());
             }
@@ -145,6 +149,9 @@ impl TerrainHeights {
             }
         }
         let first = paths.first().map_or(Path::new(""), |it| it.as_path());
+        if let Some(text) = lost_digits(&points) {
+            notes.push((first.to_owned(), Note::new(Place::File, text)));
+        }
         Ok(Self {
             files: paths.to_vec(),
             bytes,
@@ -250,4 +257,69 @@ fn name_of(path: &Path) -> String {
     let name = name.strip_suffix(".gz").unwrap_or(&name);
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     stem.to_owned()
+}
+
+/// Coordinates that are farther from 0 than this times the range of all are said to have lost digits: no more than 17 bits tell the
+/// points of that range apart.
+const FAR: f64 = 64.0;
+
+/// What is said of points that are far from 0 for the area that they are in: how far two `f32` are apart there.
+fn lost_digits(points: &[[f32; 3]]) -> Option<String> {
+    let finite = || points.iter().filter(|it| it.iter().all(|x| x.is_finite()));
+    let far = [0, 2].into_iter().filter_map(|axis: usize| {
+        let along = finite().map(|it| it[axis]);
+        let [low, high] = along.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], it| {
+            [low.min(it), high.max(it)]
+        });
+        let largest = low.abs().max(high.abs());
+        let range = f64::from(high) - f64::from(low);
+        (largest.is_finite() && f64::from(largest) > FAR * range).then_some(largest)
+    });
+    let largest = far.reduce(f32::max)?;
+
+    // Those at the place of another one, -0 and 0 being one.
+    let place = |&[x, _, z]: &[f32; 3]| [x, z].map(|it| (it + 0.0).to_bits());
+    let mut places: Vec<[u32; 2]> = finite().map(place).collect();
+    let count = places.len();
+    places.sort_unstable();
+    places.dedup();
+    let together = count - places.len();
+    let step = largest - largest.next_down();
+    Some(format!(
+        "coordinates of up to {largest} are read as 32-bit numbers, which are {step} apart there, and that is the grid that the points \
+         are on; points at the place of another one: {together}. Move the points towards 0, by subtracting a round origin, and \
+         export them again to keep their digits"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lost_digits;
+
+    #[test]
+    fn what_points_far_from_0_lose_is_said() {
+        // A kilometre in steps of 10 cm, in UTM.
+        let line = |origin: [f64; 2]| {
+            let point = |i: u32| {
+                let along = 0.1 * f64::from(i);
+                #[expect(clippy::cast_possible_truncation, reason = "as a reader does it")]
+                let place = [origin[0] + along, origin[1] + along].map(|it| it as f32);
+                [place[0], 7.0, place[1]]
+            };
+            (0..10_000).map(point).collect::<Vec<_>>()
+        };
+        let said = lost_digits(&line([500_000.0, 5_200_000.0])).unwrap();
+        assert!(said.contains("of up to 5201000 "), "{said}");
+        assert!(said.contains("which are 0.5 apart there"), "{said}");
+        // To the east they are 1/32 apart, so none is at the place of another one; along one northing four of five are.
+        assert!(said.contains("at the place of another one: 0."), "{said}");
+        let mut same = line([500_000.0, 5_200_000.0]);
+        same.iter_mut().for_each(|it| it[0] = 500_000.0);
+        let said = lost_digits(&same).unwrap();
+        assert!(said.contains("another one: 7999."), "{said}");
+
+        assert_eq!(lost_digits(&line([0.0, 0.0])), None);
+        assert_eq!(lost_digits(&line([60_000.0, -500.0])), None);
+        assert_eq!(lost_digits(&[]), None);
+    }
 }

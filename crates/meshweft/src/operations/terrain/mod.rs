@@ -1,7 +1,8 @@
 //! Terrain: a hierarchy of right triangles over heights, as a file, as a mesh, on a path of the eye, and how far it is off there.
 //!
 //! Read `heights` for where heights come from, `source` for what is drawn, `build` and `extract` for files, `paths` for where the eye goes,
-//! `walk` for what happens in a frame (`numbered_surface` once, `walk_buffers` for each policy), `verify` and `full_grid` for what is measured.
+//! `walk` for what happens in a frame (`numbered_surface` once, `walk_buffers` for each policy), `verify`, `full_grid` and
+//! `full_points` for what is measured.
 
 mod build;
 mod error;
@@ -9,11 +10,17 @@ mod extract;
 #[cfg(test)]
 mod file_tests;
 mod full_grid;
+mod full_points;
+#[cfg(test)]
+mod full_points_tests;
 mod heights;
+mod measured_heights;
 mod numbered_surface;
 mod numbers;
 mod paths;
+mod point_tree;
 mod source;
+mod surface_faults;
 mod verify;
 mod verify_options;
 mod verify_report;

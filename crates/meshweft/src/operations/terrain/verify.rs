@@ -1,33 +1,33 @@
 //! How far what is drawn of a terrain is from its heights, by measuring all of them.
 
 use std::ops::ControlFlow;
-use std::path::Path;
 
 use super::error::TerrainError;
-use super::full_grid::FullGrid;
-use super::heights::{TerrainHeights, TerrainSamples};
+use super::heights::TerrainHeights;
+use super::measured_heights::{MeasuredHeights, own_samples};
 use super::source::{TerrainFacts, TerrainSource};
 use super::verify_options::TerrainVerifyOptions;
 use super::verify_report::{TerrainVerifyReport, VerifiedSurface};
-use crate::height_grid::HeightGrid;
 use crate::lod::quad_tin::{QuadTin, TinSurface};
 use crate::lod::{Camera, CameraView};
 use crate::operations::walks::{CollectedErrors, MeasuredView};
 use crate::progress::Progress;
 
-/// Measures surfaces of a terrain over a grid: how far each height is from what is drawn, vertically. In frames of a path it is measured
+/// Measures surfaces of a terrain: how far each height is from what is drawn, vertically. In frames of a path it is measured
 /// in pixels, where the height is, of all heights in the picture, hidden or not. Of the surface of an error it is measured in metres, of all heights.
 ///
-/// Each face is laid on the grid, and each place below it compared with it, so nothing is taken from the errors of the hierarchy. It is also
-/// counted what no face covers, which voids are covered, and where two faces do not meet: all of that should be 0, and no height farther off
-/// than asked for. `heights` are those to compare with, such as the height maps of which a file was made; without them they are the terrain's own.
+/// Each face is laid on the grid or on the points, and each height below or above it compared with it, so nothing is taken from the errors of the
+/// hierarchy. It is also counted what no face covers, which voids are covered, what two faces cover, which faces are turned over, and where two do
+/// not meet: all of that should be 0, and no height farther off than asked for. `heights` are those to compare with, such as the height maps
+/// or the points of which a file was made; without them they are the terrain's own, over points those of its vertices that are points.
 ///
 /// # Errors
-/// [`TerrainError`]: an option is out of its range, the terrain is not over a grid or over another one than the heights, or a file cannot be
+/// [`TerrainError`]: an option is out of its range, the heights are of another kind than the terrain or on another grid, or a file cannot be
 /// read.
 ///
 /// # Complexity
-/// Time O(places) for each frame; space 14 bytes a place.
+/// Time O(places) for each frame; over points O(n log n) at first, and O(n + faces × log n) for each frame. Space 14 bytes a place, 17 a
+/// point.
 ///
 /// ```
 /// use meshweft::HeightGrid;
@@ -52,19 +52,15 @@ pub fn terrain_verify(
     let mut source = source.read_fully()?;
     let terrain = TerrainFacts::of(source.tin());
     let mut notes = source.notes.clone();
-    let (grid, compared) = match heights {
-        None => (own_grid(&source)?, Vec::new()),
+    let is_own = heights.is_none();
+    let (samples, compared) = match heights {
+        None => (own_samples(&source)?, Vec::new()),
         Some(heights) => {
-            let file = heights.file();
             notes.extend(heights.notes);
-            match heights.samples {
-                TerrainSamples::Grid(grid) => (grid, heights.files),
-                TerrainSamples::Points(_) => return Err(TerrainError::NoGrid { file }),
-            }
+            (heights.samples, heights.files)
         }
     };
-    check_grid(&source.file, &terrain, &grid)?;
-    let full = FullGrid::new(&grid);
+    let full = MeasuredHeights::of(&samples, &source)?;
 
     // What is looked at: the view of each surface, and how it is measured.
     let at_frame = |frame| move |error| TerrainError::View { frame, error };
@@ -86,7 +82,7 @@ pub fn terrain_verify(
     };
 
     // All of them.
-    let mut all = CollectedErrors::new(views.len().saturating_mul(grid.heights().len()));
+    let mut all = CollectedErrors::new(views.len().saturating_mul(full.count()));
     let (mut surfaces, mut is_stopped) = (Vec::new(), false);
     let mut surface = TinSurface::default();
     for (place, (number, view, measure)) in views.iter().enumerate() {
@@ -105,6 +101,8 @@ pub fn terrain_verify(
     Ok(TerrainVerifyReport {
         file: source.file,
         compared,
+        is_own,
+        heights: full.count(),
         options: options.clone(),
         terrain,
         surfaces,
@@ -129,31 +127,24 @@ impl SurfaceMeasure {
     /// Measures a surface, and adds its errors to those of all.
     fn verified(
         &self,
-        full: &FullGrid<'_>,
+        full: &MeasuredHeights<'_>,
         tin: &QuadTin,
         surface: &TinSurface,
         all: &mut CollectedErrors,
     ) -> VerifiedSurface {
-        let grid = full.grid;
-        let columns = grid.size()[0] as usize;
-        let mut own = CollectedErrors::new(grid.heights().len());
+        let mut own = CollectedErrors::new(full.count());
         let mut errors = Vec::new();
         let mut worst_metres = 0.0_f64;
-        let faults = full.look_at(tin, surface.faces(), |number, distance| {
+        let faults = full.look_at(tin, surface.faces(), |point, distance| {
             worst_metres = worst_metres.max(distance);
             let error = match self {
                 Self::Metres(length) if *length > 0.0 => distance / length,
                 Self::Metres(_) if distance > 0.0 => f64::INFINITY,
                 Self::Metres(_) => 0.0,
-                Self::Pixels(view) => {
-                    let [column, row] = [number % columns, number / columns];
-                    let [column, row] = [column, row].map(crate::index::index32);
-                    let point = grid.position(column, row);
-                    match view.has_in_picture(point) {
-                        true => view.tolerances(point, distance),
-                        false => return,
-                    }
-                }
+                Self::Pixels(view) => match view.has_in_picture(point) {
+                    true => view.tolerances(point, distance),
+                    false => return,
+                },
             };
             errors.push(error);
             if errors.len() == CHUNK {
@@ -177,42 +168,10 @@ impl SurfaceMeasure {
             stated_metres: surface.largest_error().into(),
             uncovered: faults.uncovered,
             covered_voids: faults.covered_voids,
+            overlaps: faults.overlaps,
+            turned: faults.turned,
             cracks: faults.cracks,
             has_full_area: !faults.has_other_area,
         }
-    }
-}
-
-/// The heights of a terrain of which all was read.
-fn own_grid(source: &TerrainSource) -> Result<HeightGrid, TerrainError> {
-    let tin = source.tin();
-    let no_grid = || TerrainError::NoGrid {
-        file: source.file.clone(),
-    };
-    let (size, spacing) = tin
-        .grid_size()
-        .zip(tin.grid_spacing())
-        .ok_or_else(no_grid)?;
-    let height = |vertex| tin.height(vertex).unwrap_or(f32::NAN);
-    let heights = (0..crate::index::index32(tin.vertex_count())).map(height);
-    HeightGrid::new(size, spacing, heights.collect()).map_err(|_| no_grid())
-}
-
-/// Whether heights are on the grid of a terrain.
-fn check_grid(file: &Path, terrain: &TerrainFacts, grid: &HeightGrid) -> Result<(), TerrainError> {
-    let Some((size, spacing)) = terrain.grid_size.zip(terrain.grid_spacing) else {
-        let file = file.to_owned();
-        return Err(TerrainError::NoGrid { file });
-    };
-    let found = (grid.size(), grid.spacing());
-    let is_near = |axis: usize| (spacing[axis] - found.1[axis]).abs() <= 1e-9 * spacing[axis];
-    match size == found.0 && is_near(0) && is_near(1) {
-        true => Ok(()),
-        false => Err(TerrainError::OtherGrid {
-            file: file.to_owned(),
-            size,
-            spacing,
-            found,
-        }),
     }
 }

@@ -19,6 +19,10 @@ pub struct TerrainVerifyReport {
     pub file: PathBuf,
     /// The files of the heights that it was compared with; none if these are its own.
     pub compared: Vec<PathBuf>,
+    /// Whether the heights that it was compared with are its own: over points, those of its vertices that are points.
+    pub is_own: bool,
+    /// How many heights it was compared with: over points, the first finite one of each place.
+    pub heights: usize,
     /// What was asked for.
     pub options: TerrainVerifyOptions,
     /// What was looked at.
@@ -54,6 +58,10 @@ pub struct VerifiedSurface {
     pub uncovered: usize,
     /// Places without a height that a face covers.
     pub covered_voids: usize,
+    /// Heights inside of a face that are in another one as well, or at its side.
+    pub overlaps: usize,
+    /// Faces that are clockwise seen from above, or have no area.
+    pub turned: usize,
     /// Sides of faces with more than two of them, or with one where full detail goes on.
     pub cracks: usize,
     /// Whether the faces have the area of those of full detail.
@@ -71,6 +79,8 @@ impl VerifiedSurface {
             "stated_metres": self.stated_metres,
             "uncovered": self.uncovered,
             "covered_voids": self.covered_voids,
+            "overlaps": self.overlaps,
+            "turned": self.turned,
             "cracks": self.cracks,
             "full_area": self.has_full_area,
         })
@@ -97,9 +107,11 @@ impl TerrainVerifyReport {
             ));
         }
         let sum = |count: fn(&VerifiedSurface) -> usize| self.surfaces.iter().map(count).sum();
-        let counts: [(usize, &str); 5] = [
+        let counts: [(usize, &str); 7] = [
             (sum(|it| it.uncovered), "places that no face covers"),
             (sum(|it| it.covered_voids), "voids that a face covers"),
+            (sum(|it| it.overlaps), "heights that two faces cover"),
+            (sum(|it| it.turned), "faces that are turned over"),
             (sum(|it| it.cracks), "sides of faces with a crack"),
             (
                 sum(|it| usize::from(!it.has_full_area)),
@@ -125,6 +137,8 @@ impl TerrainVerifyReport {
         let members = [
             ("file", json!(self.file.display().to_string())),
             ("compared", compared.collect()),
+            ("own", json!(self.is_own)),
+            ("heights", json!(self.heights)),
             ("error", json!(options.error)),
             ("path", json!(is_path.then(|| options.path.name()))),
             ("camera_file", json::name(options.camera_file.as_deref())),

@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 
 /// What rounds to it and what is left: the exact sum of two numbers.
 #[inline]
-pub(super) fn sum_of_two(a: f64, b: f64) -> [f64; 2] {
+pub(crate) fn sum_of_two(a: f64, b: f64) -> [f64; 2] {
     let sum = a + b;
     let of_b = sum - a;
     let of_a = sum - of_b;
@@ -16,7 +16,7 @@ pub(super) fn sum_of_two(a: f64, b: f64) -> [f64; 2] {
 
 /// The exact product of two numbers that are far from the largest and the smallest ones.
 #[inline]
-pub(super) fn product_of_two(a: f64, b: f64) -> [f64; 2] {
+pub(crate) fn product_of_two(a: f64, b: f64) -> [f64; 2] {
     let halves = |x: f64| {
         let shifted = 134_217_729.0 * x; // 2^27 + 1
         let high = shifted - (shifted - x);
@@ -29,7 +29,7 @@ pub(super) fn product_of_two(a: f64, b: f64) -> [f64; 2] {
 }
 
 /// A sum but for one rounding of its last bit; 0 and the sign are exact.
-pub(super) fn sum<const N: usize>(terms: [f64; N]) -> f64 {
+pub(crate) fn sum<const N: usize>(terms: [f64; N]) -> f64 {
     // Parts whose bits do not overlap, the smallest first.
     let mut parts = [0.0; N];
     let mut len = 0;
@@ -55,7 +55,7 @@ pub(super) fn sum<const N: usize>(terms: [f64; N]) -> f64 {
 
 /// Whether a, b, c go round counter-clockwise seen from above (`Greater`), clockwise, or are on a line.
 #[inline]
-pub(super) fn turn(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> Ordering {
+pub(crate) fn turn(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> Ordering {
     let [[ax, _, az], [bx, _, bz], [cx, _, cz]] = [a, b, c].map(|it| it.map(f64::from));
     let [first, second] = [(bz - az) * (cx - ax), (bx - ax) * (cz - az)];
     let area = first - second;
@@ -68,11 +68,11 @@ pub(super) fn turn(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> Ordering {
 }
 
 /// Relative to the sum of its two products: what rounding may do to an area at most.
-pub(super) const AREA_ROUNDING: f64 = 2.0 * f64::EPSILON;
+pub(crate) const AREA_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Twice the area of a triangle seen from above, but for a rounding of its last bit.
 #[cold]
-pub(super) fn exact_area(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> f64 {
+pub(crate) fn exact_area(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> f64 {
     let [[ax, _, az], [bx, _, bz], [cx, _, cz]] = [a, b, c].map(|it| it.map(f64::from));
     // Products of two `f32` are exact.
     sum([bz * cx, -bz * ax, -az * cx, -bx * cz, bx * az, ax * cz])
