@@ -196,7 +196,7 @@ pub(super) fn table_3(walked: &[&Walked]) -> Figure {
 /// The rendering stage of terrain by bytes.
 pub(super) fn table_5(walked: &[&Walked]) -> Figure {
     let title = "The rendering stage. The paper: how many times faster; it does not say than what.";
-    let strips = " The paper's\nterrain is a strip, which has fewer indices.";
+    let strips = " The paper's terrain is a strip, which has fewer indices.";
     bytes_of("terrain", walked, title, strips)
 }
 
@@ -241,7 +241,7 @@ fn bytes_of(kind: &str, walked: &[&Walked], title: &str, more: &str) -> Figure {
         title: format!(
             "{title} Ours: bytes of vertices ({} each) and\nof indices a frame, means of all frames, and how many times fewer bytes \
              than immediate mode, which sends three vertices a\nface. all indices: the same if the whole index array is sent in every \
-             frame, as in the paper; here only faces that change are.{more}\nA card's times are not measured here; Fig. {} has those of \
+             frame, as in the paper; here only faces that change\nare.{more} A card's times are not measured here; Fig. {} has those of \
              slots and indices.",
             walked[0].walks[0].vertex_size,
             if kind == "mesh" { "7" } else { "10" },
