@@ -335,7 +335,7 @@ fn few_vertices_are_no_points_of_the_input() {
                     steiner / count,
                     tree.counts.depth
                 );
-                assert!(steiner <= most * count + 8.0 * count.sqrt(), "{name}");
+                assert!(steiner <= most * count + 16.0 * count.sqrt(), "{name}");
                 assert!(count < 100_000.0 || steiner <= most * count, "{name}");
                 assert!(tree.counts.left_out as usize <= points.len() / 1000);
             }

@@ -1,6 +1,6 @@
 //! All heights of a grid, and what a surface is beside them: measured on the grid, without anything that a hierarchy knows.
 
-use super::surface_faults::{Coverage, Met, SurfaceFaults, SurfaceSides};
+use super::surface_faults::{Coverage, CoveredAs, SurfaceFaults, SurfaceSides};
 use crate::height_grid::HeightGrid;
 use crate::lod::quad_tin::QuadTin;
 
@@ -113,9 +113,9 @@ impl<'a> FullGrid<'a> {
                     }
                     let number = self.number(place);
                     match coverage.add(number, parts.iter().all(|&part| part > 0)) {
-                        Met::First => {}
-                        Met::Again => continue,
-                        Met::Overlapping => {
+                        CoveredAs::First => {}
+                        CoveredAs::Again => continue,
+                        CoveredAs::Overlapping => {
                             faults.overlaps += 1;
                             continue;
                         }

@@ -1,7 +1,7 @@
 //! All heights at the places of points, and what a surface is beside them, without anything that a hierarchy knows.
 
 use super::point_tree::{LOST, PointTree};
-use super::surface_faults::{Coverage, Met, SurfaceFaults, SurfaceSides};
+use super::surface_faults::{Coverage, CoveredAs, SurfaceFaults, SurfaceSides};
 use crate::geometry::signs::{exact_area, turn};
 
 /// Points, and the rectangle that a surface has to cover.
@@ -67,12 +67,12 @@ impl FullPoints {
             self.tree.in_triangle(corners, &mut |number, areas| {
                 let is_inside = areas.iter().all(|&it| it > 0.0);
                 match coverage.add(number, is_inside) {
-                    Met::First => {
+                    CoveredAs::First => {
                         let point = self.tree.points()[number];
                         measured(point, distance(corners, areas, point));
                     }
-                    Met::Again => {}
-                    Met::Overlapping => faults.overlaps += 1,
+                    CoveredAs::Again => {}
+                    CoveredAs::Overlapping => faults.overlaps += 1,
                 }
             });
         }

@@ -81,13 +81,13 @@ fn every_point_of_all_kinds_of_sets_is_within_the_tolerance() {
 }
 
 /// A terrain over points, a surface of it, and all that may be done to that.
-struct Surface {
+struct DrawnOverPoints {
     points: Vec<[f32; 3]>,
     tin: QuadTin,
     faces: Vec<(u32, [u32; 3])>,
 }
 
-impl Surface {
+impl DrawnOverPoints {
     fn new(error: f64) -> Self {
         let points = scattered(400, &mut SplitMix64(8));
         let tin = QuadTin::from(PointHierarchy::over(&points).unwrap());
@@ -128,7 +128,7 @@ impl Surface {
 #[test]
 fn a_damaged_surface_is_found() {
     for error in [-1.0, 3.0, 30.0] {
-        let surface = Surface::new(error);
+        let surface = DrawnOverPoints::new(error);
         let faces = &surface.faces;
         let (faults, worst) = surface.looked_at(faces, None);
         assert!(faults.is_sound() && worst <= error.max(0.0), "{faults:?}");
@@ -169,8 +169,8 @@ fn a_damaged_surface_is_found() {
     }
 
     // Two coarse faces upon fine ones: no crack, and no side twice where no vertex of the fine ones is at a common place.
-    let surface = Surface::new(-1.0);
-    let coarse = Surface::new(1e6);
+    let surface = DrawnOverPoints::new(-1.0);
+    let coarse = DrawnOverPoints::new(1e6);
     let both = [&surface.faces[..], &coarse.faces].concat();
     let (faults, _) = surface.looked_at(&both, None);
     assert!(faults.overlaps > 300 && faults.has_other_area, "{faults:?}");
@@ -179,7 +179,7 @@ fn a_damaged_surface_is_found() {
 #[test]
 fn distances_are_those_of_naive_loops() {
     for error in [-1.0, 1.0, 10.0, 200.0] {
-        let surface = Surface::new(error);
+        let surface = DrawnOverPoints::new(error);
         let full = FullPoints::new(&surface.points, surface.tin.horizontal_range());
         let mut found = Vec::new();
         let position = |vertex| surface.tin.position(vertex);

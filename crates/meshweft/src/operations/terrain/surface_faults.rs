@@ -37,7 +37,7 @@ enum Covered {
 
 /// What a height that is in a face is new for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Met {
+pub(super) enum CoveredAs {
     First,
     /// At a common side or corner.
     Again,
@@ -51,15 +51,15 @@ impl Coverage {
     }
 
     /// A face has a height inside, or at a side.
-    pub(super) fn add(&mut self, height: usize, is_inside: bool) -> Met {
+    pub(super) fn add(&mut self, height: usize, is_inside: bool) -> CoveredAs {
         let covered = &mut self.0[height];
         match (*covered, is_inside) {
             (Covered::No, true) => *covered = Covered::Inside,
             (Covered::No, false) => *covered = Covered::AtASide,
-            (Covered::AtASide, false) => return Met::Again,
-            (Covered::Inside, _) | (_, true) => return Met::Overlapping,
+            (Covered::AtASide, false) => return CoveredAs::Again,
+            (Covered::Inside, _) | (_, true) => return CoveredAs::Overlapping,
         }
-        Met::First
+        CoveredAs::First
     }
 
     pub(super) fn has(&self, height: usize) -> bool {
