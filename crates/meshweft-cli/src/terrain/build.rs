@@ -16,7 +16,7 @@ use crate::usage::Usage;
 
 #[derive(Debug, Args)]
 pub(super) struct Build {
-    /// Height maps: .hgt, .dem, .tif, .png or .pgm files, several lie beside each other; or points: mesh files, of which all vertices count. Each optionally followed by .gz
+    /// Height maps: .hgt, .dem, .tif, .png or .pgm files, several lie beside each other; or points: mesh files, of which all vertices count, or .ply, .obj and .off files without faces. Each optionally followed by .gz
     #[arg(value_name = "IN", required = true)]
     inputs: Vec<PathBuf>,
     /// Where to write: a .mwt file

@@ -26,10 +26,12 @@ enum Verb {
     ///
     /// Height maps are PNG and PGM images in grey, GeoTIFF, SRTM tiles (.hgt) and USGS models (.dem), each also followed by .gz. Several
     /// that lie beside each other become one terrain without cracks; where they share samples, those of the first one are taken, and it is
-    /// said how far they disagree. Voids are holes unless --fill is given. What is written is read back and compared, bit for bit.
+    /// said how far they disagree. Voids are holes unless --fill is given.
+    /// Points at any places, of meshes or without faces, become a terrain too. What is written is read back and compared, bit for bit.
     ///
     ///   meshweft terrain build N47W123.hgt.gz N48W123.hgt.gz -o puget.mwt --fill
     ///   meshweft terrain build hills.png -o hills.mwt --spacing 160,160 --height-scale .1
+    ///   meshweft terrain build scan.ply -o scan.mwt --up z
     ///   meshweft terrain build valley.dem --dry-run --json
     #[command(verbatim_doc_comment)]
     Build(Build),

@@ -335,14 +335,27 @@ fn vertices_of_a_mesh_become_a_terrain() {
     let told = "this terrain is over points, and the heights to compare with are height maps";
     assert!(run.code() == 1 && run.err().contains(told), "{}", run.err());
 
-    // What is read of points alone, and of those far from 0.
+    // Points without faces are points, in any of three formats and together; what has neither is refused.
     folder.write("alone.obj", "v 0 0 1\nv 4 0 1\nv 0 4 1\n");
-    let run = folder.run(&["terrain", "build", "alone.obj", "-o", "alone.mwt"]);
-    assert!(
-        run.err().contains("add a face of any three"),
-        "{}",
-        run.err()
-    );
+    let ply = "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\nproperty double z\n\
+               property uchar red\nend_header\n4 4 1 7\n2 2 3.5 9\n";
+    folder.write("alone.ply", ply);
+    folder.write("alone.off", "OFF\n1 0 0\n1 3 1\n");
+    let alone = ["alone.obj", "alone.ply", "alone.off", "--up", "z", "-o"];
+    let build = ["terrain", "build"].into_iter().chain(alone);
+    let build: Vec<_> = build.chain(["alone.mwt", "--json"]).collect();
+    let run = folder.run(&build);
+    assert_eq!(run.code(), 0, "{}", run.err());
+    assert!(!run.err().contains("order"), "{}", run.err());
+    assert_eq!(run.json()["points"]["points"], 6);
+    let heights = serde_json::json!([1.0, 3.5]);
+    assert_eq!(run.json()["terrain"]["heights"], heights);
+    folder.write("none.obj", "# no vertices either\n");
+    let run = folder.run(&["terrain", "build", "none.obj", "-o", "none.mwt"]);
+    let told = "points without faces are read from .ply, .obj and .off files";
+    assert!(run.code() == 1 && run.err().contains(told), "{}", run.err());
+
+    // Points far from 0.
     let far = "v 500000.1 1 5200000.1\nv 500010 1 5200000\nv 500000.1 2 5200000.2\nf 1 2 3\nv 500005 3 5200009\n";
     folder.write("far.obj", far);
     let run = folder.run(&["terrain", "build", "far.obj", "-o", "far.mwt"]);

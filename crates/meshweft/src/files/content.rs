@@ -29,6 +29,10 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     /// The values of an attribute that [`attributes`](Self::attributes) lists, in the order in which
     /// vertices and faces now are.
     fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem>;
+    /// The positions of the vertices of a file that has no faces; `None` if it has faces, or is of a format that has no vertices then.
+    fn loose_positions(&self) -> Result<Option<Attribute>, Problem> {
+        Ok(None)
+    }
     /// A number of where the values of that attribute are stored: meshes with the same number share them.
     /// `None` if nothing is shared, or that is not known.
     fn store(&self, _mesh: usize, _info: &AttributeInfo) -> Option<usize> {

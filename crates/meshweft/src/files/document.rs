@@ -396,6 +396,14 @@ impl Document {
     }
 
     /// The attribute that is the positions of a mesh.
+    /// The positions of the vertices of a file without faces, such as a point cloud in a PLY file; empty if it has faces.
+    pub(crate) fn loose_positions(&self) -> Result<Vec<[f32; 3]>, FileError> {
+        let found = self.content.loose_positions();
+        let found = found.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
+        let numbers = found.map(|it| it.to_f32()).unwrap_or_default();
+        Ok(numbers.as_chunks().0.to_vec())
+    }
+
     fn position_info(&self, mesh: usize) -> Option<AttributeInfo> {
         let mut infos = self.attributes(mesh).into_iter();
         infos.find(AttributeInfo::is_vertex_position)

@@ -26,6 +26,7 @@ use super::splice::{Layer, splice};
 use super::unlisted::Unlisted;
 use crate::attribute::{Attribute, AttributeInfo};
 use crate::index::index32;
+use crate::mesh::Mesh;
 use crate::permutation::{FaceOrder, VertexOrder};
 
 /// A file of records, and the orders its records were put in.
@@ -301,6 +302,37 @@ impl<N: SelectNotation> Content for RecordFile<N> {
             orders: &self.orders,
         };
         self.notation.attribute(&stored, info)
+    }
+
+    fn loose_positions(&self) -> Result<Option<Attribute>, Problem> {
+        let mut infos = self.notation.attributes().into_iter();
+        let info = infos.find(AttributeInfo::is_vertex_position);
+        let Some(info) = info.filter(|_| self.entries.is_empty()) else {
+            return Ok(None);
+        };
+
+        // As those of a mesh.
+        let mesh = Mesh::connectivity_only(self.vertices.len(), Vec::new());
+        let entry = MeshEntry {
+            name: String::new(),
+            mesh: mesh.map_err(|e| FileErrorKind::Order(e).at(Place::File))?,
+            polygons: None,
+            runs: Vec::new(),
+            vertex_group: 0,
+            object: 0,
+            has_other_faces: false,
+            faces_movable: false,
+            vertices_movable: false,
+            corners_turnable: false,
+        };
+        let stored = StoredMesh {
+            source: &self.source,
+            vertices: &self.vertices,
+            faces: &self.faces,
+            entry: &entry,
+            orders: &self.orders,
+        };
+        self.notation.attribute(&stored, &info).map(Some)
     }
 
     fn unlisted(&self) -> Vec<Unlisted> {

@@ -34,8 +34,8 @@ pub enum TerrainError {
         /// The file.
         file: PathBuf,
     },
-    /// A file of vertices without a face, which is read as no mesh.
-    NoFaces {
+    /// A file without a mesh, and without points that are read.
+    NoPoints {
         /// The file.
         file: PathBuf,
     },
@@ -114,9 +114,9 @@ impl fmt::Display for TerrainError {
                  file, a mesh file such as .ply or .obj, or a file that `meshweft terrain build` wrote",
                 file.display()
             ),
-            Self::NoFaces { file } => write!(
+            Self::NoPoints { file } => write!(
                 f,
-                "{}: this file has no face, and vertices alone are not read: add a face of any three of them",
+                "{}: this file has no faces, and points without faces are read from .ply, .obj and .off files: convert it to one of these",
                 file.display()
             ),
             Self::Points { file, error } => write!(f, "{}: {error}", file.display()),

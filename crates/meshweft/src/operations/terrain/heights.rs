@@ -131,16 +131,21 @@ impl TerrainHeights {
                 FileErrorKind::UnknownFormat => TerrainError::NoTerrain { file: path.clone() },
                 _ => error.into(),
             })?;
+            bytes += size_of(path);
+            let loose = document.loose_positions()?;
+            if document.meshes().is_empty() && loose.is_empty() {
+                let file = path.clone();
+                return Err(TerrainError::NoPoints { file });
+            }
+            if !loose.is_empty() {
+                points.extend(loose);
+                continue;
+            }
             let own_notes = document.notes().iter();
             notes.extend(own_notes.map(|note| (path.clone(), note.clone())));
-            if document.meshes().is_empty() {
-                let file = path.clone();
-                return Err(TerrainError::NoFaces { file });
-            }
             for (_, mesh) in plain_meshes(&document)? {
                 points.extend_from_slice(mesh.positions());
             }
-            bytes += size_of(path);
         }
         if options.is_z_up {
             for point in &mut points {
