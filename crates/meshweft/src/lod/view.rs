@@ -266,16 +266,32 @@ impl CameraView {
             reach: f64::INFINITY,
             ..*self
         };
-        if !anyhow.needs(bound) {
-            return hidden;
+        match anyhow.needs(bound) {
+            true => self.urgency_of_needed(bound),
+            false => hidden,
         }
+    }
+
+    /// How large the error of a place is seen, if that has to be finer.
+    pub(super) fn needed_urgency(&self, bound: &DetailBound) -> Option<Urgency> {
+        self.needs(bound).then(|| match self.everywhere {
+            Some(_) => self.urgency(bound),
+            None => self.urgency_of_needed(bound),
+        })
+    }
+
+    /// How large the error of a place is seen that is in the picture.
+    fn urgency_of_needed(&self, bound: &DetailBound) -> Urgency {
         let way = sub(bound.center.map(f64::from), self.eye);
         let distance = dot(way, way).sqrt() - f64::from(bound.radius);
         let excess = match distance > 0.0 {
             true => f64::from(bound.error) * self.reach / distance,
             false => f64::INFINITY,
         };
-        Urgency { excess, ..hidden }
+        Urgency {
+            excess,
+            error: bound.error,
+        }
     }
 }
 

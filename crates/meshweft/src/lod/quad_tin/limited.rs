@@ -34,7 +34,7 @@ pub(super) fn draw_within(
     let mut waiting: BTreeMap<u32, Vec<Waiting>> = BTreeMap::new();
     let mut first = Vec::new();
     for root in refined.drawn.tree().roots() {
-        refined.add(&root, 0, &mut first, &mut |it| {
+        refined.add(&root, 0, Some(&mut first), &mut |it| {
             waiting.entry(it.urgency.step()).or_default().push(it);
         });
     }
@@ -59,8 +59,8 @@ pub(super) fn draw_within(
     }
 
     let needs = |split, bound: &NodeBound| {
-        let detail = bound.detail();
-        view.needs(&detail) && cut.has(split, view.urgency(&detail).step())
+        let urgency = view.needed_urgency(&bound.detail());
+        urgency.is_some_and(|it| cut.has(split, it.step()))
     };
     Descent::new(&mut drawn, needs, surface).run();
 }
@@ -101,12 +101,12 @@ struct Waiting {
 }
 
 impl<D: DrawnTree> Refined<'_, D> {
-    /// A triangle: its faces that are drawn whatever is cut later, and what may be cut.
+    /// A triangle: its faces that are drawn whatever is cut later, if they are collected, and what may be cut.
     fn add(
         &mut self,
         triangle: &TinTriangle,
         depth: u32,
-        faces: &mut Vec<[u32; 3]>,
+        mut faces: Option<&mut Vec<[u32; 3]>>,
         wait: &mut dyn FnMut(Waiting),
     ) {
         let is_surface = match triangle.detail_in(self.drawn) {
@@ -114,16 +114,15 @@ impl<D: DrawnTree> Refined<'_, D> {
             Detail::Finest => self.drawn.tree().is_surface(triangle),
             Detail::Crossing => {
                 for half in self.drawn.tree().halves(triangle) {
-                    self.add(&half, depth + 1, faces, wait);
+                    self.add(&half, depth + 1, faces.as_deref_mut(), wait);
                 }
                 return;
             }
             Detail::Inside(bound) => {
-                let detail = bound.detail();
                 let is_surface = bound.surface[usize::from(triangle.side)];
-                if self.view.needs(&detail) {
+                if let Some(urgency) = self.view.needed_urgency(&bound.detail()) {
                     wait(Waiting {
-                        urgency: self.view.urgency(&detail),
+                        urgency,
                         depth,
                         triangle: *triangle,
                         is_surface,
@@ -132,7 +131,7 @@ impl<D: DrawnTree> Refined<'_, D> {
                 is_surface
             }
         };
-        if is_surface {
+        if is_surface && let Some(faces) = faces {
             faces.push([triangle.apex, triangle.left, triangle.right]);
         }
     }
@@ -140,7 +139,7 @@ impl<D: DrawnTree> Refined<'_, D> {
     /// The halves of a triangle.
     fn add_halves(&mut self, cut: &Waiting, wait: &mut dyn FnMut(Waiting)) {
         for half in self.drawn.tree().halves(&cut.triangle) {
-            self.add(&half, cut.depth + 1, &mut Vec::new(), wait);
+            self.add(&half, cut.depth + 1, None, wait);
         }
     }
 
