@@ -216,16 +216,21 @@ impl<N: SelectNotation> RecordFile<N> {
         Ok((file, notes))
     }
 
+    /// The records of a mesh, with the orders that they were put in.
+    fn stored<'a>(&'a self, entry: &'a MeshEntry) -> StoredMesh<'a> {
+        StoredMesh {
+            source: &self.source,
+            vertices: &self.vertices,
+            faces: &self.faces,
+            entry,
+            orders: &self.orders,
+        }
+    }
+
     /// The records where they stand, with these new numbers of the vertices.
     fn select_source<'a>(&'a self, old_to_new: &'a [u32]) -> SelectSource<'a> {
         SelectSource {
-            stored: StoredMesh {
-                source: &self.source,
-                vertices: &self.vertices,
-                faces: &self.faces,
-                entry: &self.entries[0],
-                orders: &self.orders,
-            },
+            stored: self.stored(&self.entries[0]),
             companions: &self.companions,
             lines: &self.lines,
             old_to_new,
@@ -294,13 +299,7 @@ impl<N: SelectNotation> Content for RecordFile<N> {
     }
 
     fn attribute(&self, mesh: usize, info: &AttributeInfo) -> Result<Attribute, Problem> {
-        let stored = StoredMesh {
-            source: &self.source,
-            vertices: &self.vertices,
-            faces: &self.faces,
-            entry: &self.entries[mesh],
-            orders: &self.orders,
-        };
+        let stored = self.stored(&self.entries[mesh]);
         self.notation.attribute(&stored, info)
     }
 
@@ -325,13 +324,7 @@ impl<N: SelectNotation> Content for RecordFile<N> {
             vertices_movable: false,
             corners_turnable: false,
         };
-        let stored = StoredMesh {
-            source: &self.source,
-            vertices: &self.vertices,
-            faces: &self.faces,
-            entry: &entry,
-            orders: &self.orders,
-        };
+        let stored = self.stored(&entry);
         self.notation.attribute(&stored, &info).map(Some)
     }
 
@@ -339,13 +332,7 @@ impl<N: SelectNotation> Content for RecordFile<N> {
         let Some(entry) = self.entries.first() else {
             return Vec::new();
         };
-        let stored = StoredMesh {
-            source: &self.source,
-            vertices: &self.vertices,
-            faces: &self.faces,
-            entry,
-            orders: &self.orders,
-        };
+        let stored = self.stored(entry);
         self.notation.unlisted(&stored).into_list()
     }
 

@@ -224,9 +224,9 @@ impl Walker {
                 &mut self.cache,
                 self.indices.corners(),
                 self.vertex_size,
+                clock,
                 &mut frame,
             )?;
-            frame.cache_milliseconds += 1e3 * (clock() - indexed);
         }
         Ok(frame)
     }

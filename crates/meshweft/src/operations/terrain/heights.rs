@@ -133,13 +133,13 @@ impl TerrainHeights {
             })?;
             bytes += size_of(path);
             let loose = document.loose_positions()?;
-            if document.meshes().is_empty() && loose.is_empty() {
-                let file = path.clone();
-                return Err(TerrainError::NoPoints { file });
-            }
             if !loose.is_empty() {
                 points.extend(loose);
                 continue;
+            }
+            if document.meshes().is_empty() {
+                let file = path.clone();
+                return Err(TerrainError::NoPoints { file });
             }
             let own_notes = document.notes().iter();
             notes.extend(own_notes.map(|note| (path.clone(), note.clone())));
