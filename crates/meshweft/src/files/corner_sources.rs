@@ -225,6 +225,7 @@ mod tests {
             faces_movable: true,
             vertices_movable: true,
             corners_turnable: true,
+            level: None,
         };
         // Left of the seam a corner holds 0, right of it 1.
         let sources = CornerSources::new(&entry, |record| {

@@ -40,6 +40,20 @@ pub struct MeshEntry {
     pub vertices_movable: bool,
     /// Whether a record's corners may be turned.
     pub corners_turnable: bool,
+    /// Of which mesh it is a level of detail; `None` of a mesh at full resolution.
+    pub level: Option<MeshLevel>,
+}
+
+/// That a mesh is a level of detail of another one, drawn in its place where less is enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct MeshLevel {
+    /// 1 is the finest below full resolution. Several meshes may be the same level of one.
+    pub number: usize,
+    /// The number of the mesh at full resolution, which has no level itself.
+    pub of: usize,
+    /// How far the level is off, as the file states it: finite, not negative, in units of the positions.
+    pub error: Option<f32>,
 }
 
 impl MeshEntry {
@@ -309,6 +323,7 @@ mod tests {
             faces_movable: true,
             vertices_movable: true,
             corners_turnable: true,
+            level: None,
         }
     }
 

@@ -68,7 +68,7 @@ pub use create::{check_new, create};
 pub use disk::{is_gzip, remove_abandoned};
 pub use document::Document;
 pub use edit::{Edit, NewValue};
-pub use entry::MeshEntry;
+pub use entry::{MeshEntry, MeshLevel};
 pub use error::{FileError, FileErrorKind, Place};
 pub use format::Format;
 pub use gltf::{external_buffers, shared_buffers};

@@ -323,6 +323,7 @@ impl<N: SelectNotation> Content for RecordFile<N> {
             faces_movable: false,
             vertices_movable: false,
             corners_turnable: false,
+            level: None,
         };
         let stored = self.stored(&entry);
         self.notation.attribute(&stored, &info).map(Some)

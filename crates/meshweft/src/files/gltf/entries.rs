@@ -206,6 +206,7 @@ impl Entries {
             faces_movable: true,
             vertices_movable: primitive.indices.is_some(),
             corners_turnable: true,
+            level: None,
         });
         Ok(())
     }

@@ -14,6 +14,7 @@
 //! [`notes`] says what stays as it is. Values are read on request: [`attributes`] → [`elements`].
 //! Strips are made lists before all else, if that is asked for: [`strips`].
 //! [`mod@unlisted`] names what is neither in the meshes nor in their attributes.
+//! [`levels`] finds which meshes are levels of detail of others.
 //! [`companions`] are the files that it names beside these; [`neighbours`] asks who else names a buffer.
 //! [`culling`] reads the tables that say which faces need not be drawn, [`new_tables`] adds them, [`tables`] has those
 //! of each mesh, [`placed_tables`] their positions too, [`sides`] finds which sides
@@ -47,6 +48,7 @@
 //! | `GroupObstacles` | why the vertices of each group stay, while the entries are made |
 //! | `Missing` | why a buffer has no bytes |
 //! | `Culling` | the culling table of a primitive |
+//! | `StatedLevel` | that a mesh of the file, with all its primitives, is a level of detail of another one |
 //! | `View` | all that was found in the JSON (no `bufferView`) |
 //! | `Growth` | the buffer that new bytes go to |
 //! | `Additions` | new values, each with the way to its place |
@@ -71,6 +73,9 @@ mod groups;
 mod growth;
 mod json;
 mod leaving;
+mod levels;
+#[cfg(test)]
+mod levels_tests;
 mod movable;
 mod neighbours;
 mod new_attributes;
@@ -217,7 +222,8 @@ fn look(
     let mut primitives = Primitives::read(root, &accessors, options)?;
     let mut byte_users = ByteUsers::new(root, &accessors, &primitives);
     groups::keep_entangled(&mut primitives, &mut byte_users);
-    let entries = Entries::new(&primitives, &byte_users, buffers)?;
+    let mut entries = Entries::new(&primitives, &byte_users, buffers)?;
+    levels::add(root, &mut entries);
     let attributes = Attributes::new(root, &accessors, &entries.first_primitives);
     let table_attributes = Attributes::new(root, &accessors, &entries.tables.primitives());
 

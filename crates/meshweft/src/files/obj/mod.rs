@@ -154,6 +154,7 @@ fn read_file(
             name,
             mesh,
             corners_turnable: records.polygons.is_none(),
+            level: None,
             polygons: records.polygons,
             runs: runs.starts,
             vertex_group: 0,

@@ -111,6 +111,7 @@ fn read_file(bytes: Vec<u8>, options: &ReadOptions) -> Result<RecordRead<OffNota
             faces_movable: !stays,
             vertices_movable: !stays,
             corners_turnable: !stays && records.polygons.is_none(),
+            level: None,
             polygons: records.polygons,
         });
         if stays {

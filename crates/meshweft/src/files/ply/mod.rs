@@ -147,6 +147,7 @@ fn finish(
             corners_turnable: plan.corners_turnable
                 && faces_move
                 && body.records.polygons.is_none(),
+            level: None,
             polygons: body.records.polygons,
             // Where faces must stay, each is a run of its own.
             runs: match faces_move {

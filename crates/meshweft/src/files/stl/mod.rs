@@ -133,6 +133,7 @@ fn file<N>(
             faces_movable: true,
             vertices_movable: false,
             corners_turnable: true,
+            level: None,
         });
     }
 

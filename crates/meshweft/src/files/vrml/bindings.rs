@@ -155,6 +155,7 @@ impl Binder<'_> {
             name,
             mesh,
             corners_turnable: corners.records.polygons.is_none(),
+            level: None,
             polygons: corners.records.polygons,
             runs,
             vertex_group: 0,
