@@ -19,8 +19,8 @@ use super::shared_progress::SharedProgress;
 use crate::cache;
 use crate::faces::Faces;
 use crate::first_use::Compact;
-use crate::order::vertex_fetch;
-use crate::permutation::{FaceOrder, VertexOrder};
+use crate::order::{vertex_bands, vertex_fetch};
+use crate::permutation::{FaceOrder, VertexOrder, renumber};
 
 /// A gain below one in so many counts as none.
 const SMALLEST_GAIN: u64 = 200;
@@ -130,22 +130,37 @@ fn moved_starts(starts: &[u32], order: &FaceOrder) -> Vec<u32> {
     new_starts.map(|(new, _)| new).chain(end).collect()
 }
 
-/// The vertices in the order of their first use, if that moves any: where faces moved, or where it
-/// fetches less by what counts.
-pub(super) fn better_vertex_order(faces: Faces<'_>, faces_moved: bool) -> Option<VertexOrder> {
-    let order = vertex_fetch(faces);
+/// The vertices in the order of their first use; those of several levels of detail, fine to coarse, in bands.
+pub(super) fn vertex_order(levels: &[Faces<'_>]) -> VertexOrder {
+    match levels {
+        [only] => vertex_fetch(*only),
+        _ => vertex_bands(levels),
+    }
+}
+
+/// That order, if it moves any vertex: where faces moved, or where it fetches less by what counts, summed over the levels.
+pub(super) fn better_vertex_order(levels: &[Faces<'_>], faces_moved: bool) -> Option<VertexOrder> {
+    let order = vertex_order(levels);
     if order.is_identity() {
         return None;
     }
-    let fetches_less = || {
-        let renumbered = order.renumber(faces.as_slice());
+    (faces_moved || fetches_less(&order, levels)).then_some(order)
+}
+
+/// Whether vertices in this order are fetched better by what counts, summed over the levels.
+pub(super) fn fetches_less(order: &VertexOrder, levels: &[Faces<'_>]) -> bool {
+    let old_to_new = order.permutation().old_to_new();
+    let of_level = |faces: &Faces<'_>| {
+        let mut renumbered = faces.as_slice().to_vec();
+        renumber(&mut renumbered, &old_to_new);
         let renumbered = Faces::of_checked(&renumbered, faces.vertex_count());
-        is_gain(
-            cache::fetched(faces, VERTEX_SIZE),
-            cache::fetched(renumbered, VERTEX_SIZE),
-        )
+        [*faces, renumbered].map(|faces| cache::fetched(faces, VERTEX_SIZE))
     };
-    (faces_moved || fetches_less()).then_some(order)
+    let [before, after] = levels
+        .iter()
+        .map(of_level)
+        .fold([0; 2], |sums, own| [sums[0] + own[0], sums[1] + own[1]]);
+    is_gain(before, after)
 }
 
 #[cfg(test)]

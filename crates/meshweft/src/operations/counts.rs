@@ -172,7 +172,8 @@ mod of_files {
             meshes.map(|entry| Self::of(&entry.mesh, models)).collect()
         }
 
-        /// The sum over the meshes of a file, vertices that several share counted once.
+        /// The sum over the meshes of a file that are at full resolution, vertices that several share counted once.
+        /// Levels of detail ([`MeshEntry::level`]) are drawn in the place of others, and so not added.
         ///
         /// `counts` are those of the meshes, under these models.
         ///
@@ -186,7 +187,9 @@ mod of_files {
             };
             let mut fetched = 0.0;
             let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-            for (i, (entry, count)) in entries.iter().zip(counts).enumerate() {
+            let all = entries.iter().zip(counts).enumerate();
+            let full = all.filter(|(_, (entry, _))| entry.level.is_none());
+            for (i, (entry, count)) in full {
                 groups.entry(entry.vertex_group).or_default().push(i);
                 total.faces += count.faces;
                 if let Some(card) = count.card {

@@ -8,7 +8,7 @@ use super::counts::Counts;
 use super::improved::{FaceChange, Improved};
 use super::options::Options;
 use super::shared_progress::SharedProgress;
-use super::vertex_groups::{InBlocks, Judgement, better_order_of_group, movable_groups};
+use super::vertex_groups::{Judgement, LargeGroups, better_order_of_group, movable_groups};
 use crate::cache::CacheModel;
 use crate::faces::Faces;
 use crate::files::{Document, Edit, FileError, MeshEntry};
@@ -47,12 +47,12 @@ pub(super) fn improve(
     let face_count = entries.iter().map(|entry| entry.mesh.face_count()).sum();
     let shared = SharedProgress::new(progress, face_count);
 
-    // Large groups of vertices are put in blocks first: faces are then ordered block by block.
+    // Large groups of vertices are put in blocks or bands first: faces are then ordered in these numbers.
     let groups = match options.keep_vertex_order {
         true => BTreeMap::new(),
         false => movable_groups(entries),
     };
-    let in_blocks = InBlocks::new(entries, &groups);
+    let large_groups = LargeGroups::new(entries, &groups);
 
     // Faces: each mesh has its share of a budget, by where its faces stand among all.
     let mut first_face = 0;
@@ -63,7 +63,7 @@ pub(super) fn improve(
         (i, entry, before, first)
     });
     let job = |(i, entry, before, first)| {
-        let renumbered = in_blocks.entry(i);
+        let renumbered = large_groups.entry(i);
         MeshJob {
             entry: renumbered.unwrap_or(entry),
             is_renumbered: renumbered.is_some(),
@@ -85,15 +85,16 @@ pub(super) fn improve(
     // Vertices.
     let mut vertices = BTreeMap::new();
     for (group, members) in groups {
-        let settled = match in_blocks.order(group) {
-            None => better_order_of_group(&members, &mut meshes, &faces),
-            Some(blocks) => Judgement {
+        let settled = match large_groups.order(group) {
+            None => better_order_of_group(&members, entries, &mut meshes, &faces),
+            Some(numbered) => Judgement {
                 members: &members,
                 entries,
                 before,
                 algorithm: &algorithm,
+                models,
             }
-            .settle(blocks, &mut meshes, &mut faces),
+            .settle(numbered, &mut meshes, &mut faces),
         };
         if let Some(order) = settled {
             vertices.insert(group, VertexChange { members, order });

@@ -186,7 +186,7 @@ impl IndexOptions {
         // Vertices.
         let vertices = self.renumber_vertices.then(|| {
             let now = Faces::of_checked(faces, vertex_count);
-            let better = better_vertex_order(now, !order.is_identity());
+            let better = better_vertex_order(&[now], !order.is_identity());
             if let Some(order) = &better {
                 order.renumber_in_place(faces);
             }

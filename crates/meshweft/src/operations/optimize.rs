@@ -8,18 +8,19 @@ use super::file_report::FileReport;
 use super::improve::{Improvement, improve};
 use super::options::{Options, OptionsError};
 use crate::cache::CacheModel;
-use crate::files::{Document, FileError};
+use crate::files::{Document, FileError, MeshLevel};
 use crate::order::Target;
 use crate::permutation::{FaceOrder, VertexOrder};
 use crate::progress::Progress;
 
 /// Puts the faces of a document in an order that misses less, and its vertices in the order of their
 /// first use, those of a group of more than 65,536 in blocks
-/// ([`vertex_blocks`](crate::order::vertex_blocks())).
+/// ([`vertex_blocks`](crate::order::vertex_blocks())), those that levels of detail share in bands, so that what each level uses is a
+/// prefix ([`vertex_bands`](crate::order::vertex_bands())).
 ///
 /// A mesh or run whose order would not get better stays as it is: the misses of the target's caches are
 /// added up, and a gain of less than .5 % counts as none. Vertices stay where no faces moved and
-/// they would not be fetched better by as much; a group in blocks is judged as a whole. So a document that was optimised is not changed again,
+/// they would not be fetched better by as much; a group in blocks, or of so many vertices in bands, is judged as a whole. So a document that was optimised is not changed again,
 /// except after a run with a budget, a time limit, the faithful mode or [`Options::allow_worse`]: what
 /// is found for a mesh of up to 131,072 faces is ordered once more, and taken if that finds nothing;
 /// in larger ones a second run gains less than what counts. The document is changed in memory:
@@ -126,7 +127,7 @@ pub struct OptimizeReport {
     pub options: Options,
     /// Each mesh.
     pub meshes: Vec<OptimizedMesh>,
-    /// All meshes together.
+    /// All meshes at full resolution together, without levels of detail.
     pub total: CountChange,
     /// Whether the caller stopped it before it was settled.
     pub is_stopped: bool,
@@ -150,6 +151,8 @@ pub struct CountChange {
 pub struct OptimizedMesh {
     /// What the file calls it.
     pub name: String,
+    /// Of which mesh it is a level of detail, if it is one.
+    pub level: Option<MeshLevel>,
     /// What was counted before and after.
     pub change: CountChange,
     /// The order that its face records were put in.
@@ -189,6 +192,7 @@ impl OptimizeReport {
         let meshes = entries.iter().zip(improvement.faces).zip(changes);
         let meshes = meshes.map(|((entry, faces), change)| OptimizedMesh {
             name: entry.name.clone(),
+            level: entry.level,
             change,
             faces: faces.order,
             reason: faces.reason,

@@ -45,6 +45,10 @@ impl OptimizeReport {
         let vertices_moved = self.vertex_order(number).is_some();
         let mut object = json::change(&mesh.change.before, &mesh.change.after);
         object.shift_insert(0, "name".into(), json!(mesh.name));
+        if let Some(level) = mesh.level {
+            object.shift_insert(1, "level".into(), json!(level.number));
+            object.shift_insert(2, "level_of".into(), json!(level.of));
+        }
         object.insert("changed".into(), json!(mesh.is_changed()));
         object.insert("vertices_moved".into(), json!(vertices_moved));
         if let Some(reason) = mesh.reason {

@@ -2,8 +2,10 @@
 //!
 //! [`Optimizer`] is the one call for every [`Target`] and [`Effort`]. [`KCacheReorder`] is the
 //! greedy that it uses; [`baselines`] are orders to compare with. Order the faces first; then
-//! [`vertex_fetch()`] puts the vertices in the order of their first use.
+//! [`vertex_fetch()`] puts the vertices in the order of their first use, and [`vertex_bands()`] those that levels of
+//! detail share.
 
+mod bands;
 pub mod baselines;
 mod block_faces;
 pub mod bogomjakov_gotsman;
@@ -20,6 +22,7 @@ mod turn_corners;
 mod vertex_blocks;
 mod vertex_fetch;
 
+pub use bands::vertex_bands;
 pub(crate) use block_faces::is_in_blocks;
 pub use grid::Grid;
 pub use in_batches::InBatches;
