@@ -156,6 +156,15 @@ impl Sheet {
     }
 }
 
+/// One of two primitives, with vertices that no face uses.
+pub(crate) fn two_primitives() -> Sheet {
+    Sheet {
+        primitive_count: 2,
+        unused: 2,
+        ..Sheet::default()
+    }
+}
+
 pub(crate) fn open(bytes: &[u8]) -> Document {
     let name = std::path::Path::new("sheet.glb");
     Document::from_bytes(bytes.to_vec(), Format::Glb, name, Limits::default()).unwrap()

@@ -6,3 +6,4 @@
 mod builder;
 mod made;
 mod order;
+mod simplify;

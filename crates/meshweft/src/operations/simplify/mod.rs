@@ -44,7 +44,8 @@ pub use report::{SimplifiedMesh, SimplifiedObject, SimplifyError, SimplifyReport
 /// The result is the same on any number of threads, those of the current pool with feature `parallel`.
 ///
 /// # Errors
-/// [`SimplifyError::Options`] for options that make no sense; nothing is changed then.
+/// [`SimplifyError::Options`] for options that make no sense, [`SimplifyError::HasLevels`] of a document with levels of detail;
+/// nothing is changed then.
 /// [`SimplifyError::File`] if the document refuses an order, which it does not for those made here. An object
 /// that cannot be simplified stays as it is, and the report says why.
 ///
@@ -72,6 +73,12 @@ pub fn simplify(
     progress: &dyn Progress,
 ) -> Result<SimplifyReport, SimplifyError> {
     options.check().map_err(SimplifyError::Options)?;
+    if let Some(level) = document.meshes().iter().find_map(|entry| entry.level) {
+        return Err(SimplifyError::HasLevels {
+            file: document.path().to_owned(),
+            mesh: document.meshes()[level.of].name.clone(),
+        });
+    }
     let mut models = options.ordering.target.models().to_vec();
     models.extend(USUAL_CACHES.iter().filter(|&model| {
         let ordered_for = options.ordering.target.models();

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::path::PathBuf;
 
 use super::levels::LevelFigures;
 use super::options::{SimplifyOptions, SimplifyOptionsError};
@@ -22,6 +23,13 @@ pub enum SimplifyError {
     Options(SimplifyOptionsError),
     /// The document does not take an order.
     File(FileError),
+    /// A mesh has levels of detail, which would no longer be levels of what it becomes.
+    HasLevels {
+        /// The file.
+        file: PathBuf,
+        /// The mesh.
+        mesh: String,
+    },
 }
 
 impl fmt::Display for SimplifyError {
@@ -29,6 +37,11 @@ impl fmt::Display for SimplifyError {
         match self {
             Self::Options(error) => error.fmt(f),
             Self::File(error) => error.fmt(f),
+            Self::HasLevels { file, mesh } => write!(
+                f,
+                "{}: {mesh} has levels of detail already: simplify the file that they were made from",
+                file.display()
+            ),
         }
     }
 }
