@@ -77,7 +77,8 @@ fn write_plot(path: &Path, curves: &[Curve]) -> Result<()> {
 fn curves(document: &Document, with_methods: bool) -> Vec<Curve> {
     let file = document.path().file_name().unwrap_or_default();
     let file = file.to_string_lossy().into_owned();
-    let meshes = || document.meshes().iter().map(|entry| &entry.mesh);
+    let full = || document.meshes().iter().filter(|it| it.level.is_none());
+    let meshes = || full().map(|entry| &entry.mesh);
     let mut curves = vec![Curve::of_cache_sizes(
         file.clone(),
         meshes().map(Mesh::faces),
@@ -131,8 +132,13 @@ fn text(report: &InspectReport) -> String {
         let name = [name.to_owned()].into_iter();
         name.chain(sizes).chain(ratios).collect::<Vec<_>>()
     };
-    for (name, counts) in &report.meshes {
-        rows.push(row(name, counts));
+    for mesh in &report.meshes {
+        rows.push(row(&mesh.name, &mesh.counts));
+        for level in &mesh.levels {
+            let error = level.error.map(|error| format!(", error {error}"));
+            let name = format!("  level {}{}", level.number, error.unwrap_or_default());
+            rows.push(row(&name, &level.counts));
+        }
     }
     if report.meshes.len() != 1 {
         rows.push(row("total", total));

@@ -83,7 +83,7 @@ pub use cull::{
 pub use file_report::FileReport;
 pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_indices_with};
 #[cfg(feature = "files")]
-pub use inspect::{InspectReport, inspect};
+pub use inspect::{InspectReport, InspectedLevel, InspectedMesh, inspect};
 #[cfg(feature = "files")]
 pub use json::SCHEMA;
 #[cfg(feature = "files")]

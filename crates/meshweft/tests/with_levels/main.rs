@@ -4,6 +4,12 @@
 #[path = "../files_gltf/builder.rs"]
 #[expect(dead_code, reason = "shared with other tests")]
 mod builder;
+mod inspect;
 mod made;
 mod order;
 mod simplify;
+
+use meshweft::CacheModel;
+
+/// What is counted.
+const MODELS: [CacheModel; 2] = [CacheModel::fifo(12), CacheModel::Nvidia];
