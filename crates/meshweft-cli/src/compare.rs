@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use clap::Args;
 use meshweft::files::{Document, ReadOptions};
-use meshweft::operations::{self, CompareReport};
+use meshweft::operations::{self, CompareReport, ComparedLevel};
 
 use crate::caches::Caches;
 use crate::columns::columns;
@@ -52,6 +52,10 @@ fn text(found: &CompareReport) -> String {
             format!("different triangles: {only_a} only in a, {only_b} only in b")
         }
     };
+    let levels = match found.levels.is_empty() {
+        true => String::new(),
+        false => format!("\n{}", level_lines(&found.levels).join("\n")),
+    };
     let mut rows = vec![vec![String::new(), "a".into(), "b".into()]];
     for ((model, acmr_a), (_, acmr_b)) in a.counts.acmr().zip(b.counts.acmr()) {
         rows.push(vec![
@@ -61,10 +65,38 @@ fn text(found: &CompareReport) -> String {
         ]);
     }
     format!(
-        "a: {}\nb: {}\n{verdict}\n{}\nbetter: {}",
+        "a: {}\nb: {}\n{verdict}{levels}\n{}\nbetter: {}",
         a.file.display(),
         b.file.display(),
         columns(&rows),
         found.better_name()
     )
+}
+
+/// How many levels of detail each file has, and how those that both have differ.
+fn level_lines(levels: &[ComparedLevel]) -> Vec<String> {
+    let count = |side: usize| levels.iter().filter(|it| it.faces[side].is_some()).count();
+    let first = match [count(0), count(1)] {
+        [a, b] if a == b => format!("levels of detail: {a} in both"),
+        [a, b] => format!("levels of detail: {a} in a, {b} in b"),
+    };
+    let of_level = levels.iter().map(|level| {
+        let number = level.number;
+        match level.faces {
+            [Some(faces), Some(_)] if level.is_same() => {
+                format!("  level {number}: the same triangles, faces: {faces}")
+            }
+            [Some(_), Some(_)] => {
+                let [only_a, only_b] = level.only_in;
+                format!(
+                    "  level {number}: different triangles, {only_a} only in a, {only_b} only in b"
+                )
+            }
+            [a, b] => {
+                let (faces, side) = (a.or(b).unwrap_or(0), if a.is_some() { "a" } else { "b" });
+                format!("  level {number}: only in {side}, faces: {faces}")
+            }
+        }
+    });
+    std::iter::once(first).chain(of_level).collect()
 }

@@ -16,6 +16,7 @@ mod nothing_lost;
 mod papers;
 mod simplify;
 mod terrain;
+mod with_levels;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,7 @@
 //! Are these the same triangles, and which order is better?
 
 use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::rc::Rc;
 
@@ -14,6 +15,9 @@ use crate::files::{Document, FileError, MeshEntry, Note};
 use crate::geometry::place_bits;
 
 /// How two documents differ as triangles and in misses under these models.
+///
+/// Meshes at full resolution are compared with each other, and so is each level of detail with that of the same number. A document
+/// that has more levels has the same triangles all the same.
 ///
 /// # Errors
 /// [`FileError`] if positions cannot be read.
@@ -30,16 +34,35 @@ pub fn compare(
     let positions = [a.all_positions()?, b.all_positions()?];
     let is_by_position = positions.iter().all(Option::is_some);
     let by_position = |side: usize| positions[side].as_deref().filter(|_| is_by_position);
-    let [only_in_a, only_in_b] = differences(
-        &triangles(a.meshes(), by_position(0)),
-        &triangles(b.meshes(), by_position(1)),
-    );
+    let both = [by_level(a.meshes()), by_level(b.meshes())];
+    let level = |number: usize| {
+        let of = |side: usize| {
+            let meshes = both[side].get(&number);
+            meshes.map(|meshes| triangles(meshes, by_position(side)))
+        };
+        let of_both = [of(0), of(1)];
+        let [in_a, in_b] = of_both
+            .each_ref()
+            .map(|it| it.as_deref().unwrap_or_default());
+        ComparedLevel {
+            number,
+            faces: of_both.each_ref().map(|it| it.as_ref().map(Vec::len)),
+            only_in: differences(in_a, in_b),
+        }
+    };
+    let only_in = level(0).only_in;
+
+    // Each level of detail that one of them has.
+    let numbers = both.iter().flat_map(|levels| levels.keys().copied());
+    let numbers: BTreeSet<usize> = numbers.filter(|&number| number > 0).collect();
+    let levels = numbers.into_iter().map(level).collect();
 
     let sides = [a, b].map(|document| ComparedFile::new(document, models));
     let better = better(&sides[0].counts, &sides[1].counts);
     Ok(CompareReport {
         sides,
-        only_in: [only_in_a, only_in_b],
+        only_in,
+        levels,
         is_by_position,
         better,
     })
@@ -54,12 +77,45 @@ type Positions = Rc<[[f32; 3]]>;
 pub struct CompareReport {
     /// The two files.
     pub sides: [ComparedFile; 2],
-    /// How many triangles only one of them has.
+    /// How many triangles at full resolution only one of them has.
     pub only_in: [usize; 2],
+    /// The levels of detail that any of them has, from fine to coarse.
+    pub levels: Vec<ComparedLevel>,
     /// Whether vertices were told apart by their positions, not by their numbers.
     pub is_by_position: bool,
     /// The side that misses less, under the first model that tells them apart: 0 or 1.
     pub better: Option<usize>,
+}
+
+/// A level of detail of two files that are compared: all meshes that are this level of another one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ComparedLevel {
+    /// 1 is the finest below full resolution.
+    pub number: usize,
+    /// How many faces it has in each; `None` where there is no such level.
+    pub faces: [Option<usize>; 2],
+    /// How many of its triangles only one of them has.
+    pub only_in: [usize; 2],
+}
+
+impl ComparedLevel {
+    /// Whether both have this level, with the same triangles.
+    #[must_use]
+    pub fn is_same(&self) -> bool {
+        self.only_in == [0, 0] && self.faces[0] == self.faces[1]
+    }
+
+    fn json(&self) -> Value {
+        json!({
+            "level": self.number,
+            "faces_a": self.faces[0],
+            "faces_b": self.faces[1],
+            "same_triangles": self.is_same(),
+            "only_in_a": self.only_in[0],
+            "only_in_b": self.only_in[1],
+        })
+    }
 }
 
 /// One of two files that are compared.
@@ -70,7 +126,7 @@ pub struct ComparedFile {
     pub file: PathBuf,
     /// Its size and that of the buffers beside it that were read.
     pub bytes: u64,
-    /// All meshes together.
+    /// All meshes at full resolution together, without levels of detail.
     pub counts: Counts,
     /// What cannot be re-ordered, and why.
     pub notes: Vec<Note>,
@@ -98,10 +154,16 @@ impl ComparedFile {
 }
 
 impl CompareReport {
-    /// Whether both have the same triangles.
+    /// Whether both have the same triangles at full resolution.
     #[must_use]
     pub fn is_same(&self) -> bool {
         self.only_in == [0, 0]
+    }
+
+    /// Whether both have the same levels of detail, with the same triangles.
+    #[must_use]
+    pub fn has_same_levels(&self) -> bool {
+        self.levels.iter().all(ComparedLevel::is_same)
     }
 
     /// The better side as `a`, `b` or `equal`.
@@ -129,6 +191,9 @@ impl CompareReport {
         report.insert("compared_by".into(), json!(compared_by));
         report.insert("only_in_a".into(), json!(only_in_a));
         report.insert("only_in_b".into(), json!(only_in_b));
+        report.insert("same_levels".into(), json!(self.has_same_levels()));
+        let levels = self.levels.iter().map(ComparedLevel::json);
+        report.insert("levels".into(), levels.collect());
         report.insert("better".into(), json!(self.better_name()));
         Value::Object(report).to_string()
     }
@@ -149,10 +214,23 @@ fn better(a: &Counts, b: &Counts) -> Option<usize> {
     None
 }
 
-/// All triangles, sorted; a triangle starts at its least corner, the orientation kept.
-fn triangles(entries: &[MeshEntry], positions: Option<&[Positions]>) -> Vec<[[u32; 3]; 3]> {
-    let mut triangles = Vec::new();
+/// The meshes of each level of detail with their numbers; level 0 is full resolution.
+fn by_level(entries: &[MeshEntry]) -> BTreeMap<usize, Vec<(usize, &MeshEntry)>> {
+    let mut levels: BTreeMap<usize, Vec<(usize, &MeshEntry)>> = BTreeMap::new();
     for (mesh, entry) in entries.iter().enumerate() {
+        let number = entry.level.map_or(0, |level| level.number);
+        levels.entry(number).or_default().push((mesh, entry));
+    }
+    levels
+}
+
+/// All triangles, sorted; a triangle starts at its least corner, the orientation kept.
+fn triangles(
+    meshes: &[(usize, &MeshEntry)],
+    positions: Option<&[Positions]>,
+) -> Vec<[[u32; 3]; 3]> {
+    let mut triangles = Vec::new();
+    for &(mesh, entry) in meshes {
         let identity = |vertex: u32| match positions {
             Some(positions) => place_bits(positions[mesh][vertex as usize]),
             None => [vertex, 0, 0],

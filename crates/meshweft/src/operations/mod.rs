@@ -65,7 +65,7 @@ mod vertex_groups;
 mod walks;
 
 #[cfg(feature = "files")]
-pub use compare::{CompareReport, ComparedFile, compare};
+pub use compare::{CompareReport, ComparedFile, ComparedLevel, compare};
 #[cfg(feature = "files")]
 pub use compress::{
     CompressError, CompressOptions, CompressReport, CompressedMesh, DecodedOrder,

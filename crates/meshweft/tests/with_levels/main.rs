@@ -4,6 +4,7 @@
 #[path = "../files_gltf/builder.rs"]
 #[expect(dead_code, reason = "shared with other tests")]
 mod builder;
+mod compare;
 mod inspect;
 mod made;
 mod order;
