@@ -33,6 +33,7 @@ pub(super) fn open(folder: &Path, names: &[&str]) -> Result<Option<(PathBuf, Mes
     };
     let document = Document::open(&file, Limits::default())?;
     let meshes = document.meshes().iter().enumerate();
+    let meshes = meshes.filter(|(_, it)| it.level.is_none());
     let Some((number, largest)) = meshes.max_by_key(|(_, it)| it.mesh.face_count()) else {
         return Ok(None);
     };

@@ -16,7 +16,7 @@ pub(super) struct Losses {
 }
 
 impl Losses {
-    /// All that is lost of a document; `keeps` says of an attribute of a mesh whether it is kept. What an STL says twice does not
+    /// All that is lost of a document of which meshes at full resolution are kept; `keeps` says of an attribute of a mesh whether it is kept. What an STL says twice does not
     /// count.
     ///
     /// # Errors
@@ -25,8 +25,10 @@ impl Losses {
         document: &Document,
         keeps: impl Fn(usize, &AttributeInfo) -> bool,
     ) -> Result<Self, FileError> {
+        let entries = document.meshes();
         let mut attributes = Vec::new();
-        for (number, entry) in document.meshes().iter().enumerate() {
+        let full = entries.iter().enumerate();
+        for (number, entry) in full.filter(|(_, entry)| entry.level.is_none()) {
             let mut lost = Vec::new();
             for info in document.attributes(number) {
                 let is_kept = is_position(&info) || keeps(number, &info);
@@ -38,10 +40,12 @@ impl Losses {
                 attributes.push((entry.name.clone(), lost));
             }
         }
-        let others = document.unlisted().into_iter();
+        let levels = entries.iter().any(|entry| entry.level.is_some());
+        let levels = levels.then(|| "levels of detail".to_owned());
+        let others = document.unlisted().into_iter().map(|it| it.what);
         Ok(Self {
             attributes,
-            others: others.map(|it| it.what).collect(),
+            others: levels.into_iter().chain(others).collect(),
         })
     }
 

@@ -1,4 +1,4 @@
-//! The meshes of a document as names, positions and faces alone.
+//! The meshes of a document at full resolution as names, positions and faces alone.
 
 use std::collections::BTreeMap;
 
@@ -7,22 +7,34 @@ use crate::files::{Document, FileError, FileErrorKind, MeshEntry, Place};
 use crate::index::index32;
 use crate::mesh::Mesh;
 
-/// The meshes of a document with their positions, each with vertices of its own.
+/// A mesh at full resolution, with vertices of its own.
+pub(super) struct SeparateMesh {
+    /// Its number in the document.
+    pub(super) number: usize,
+    pub(super) name: String,
+    pub(super) mesh: Mesh,
+}
+
+/// The meshes of a document at full resolution with their positions, each with vertices of its own.
 ///
 /// # Complexity
 /// Time O(vertices + faces, sorted), however many meshes share vertices.
 ///
 /// # Errors
 /// Positions cannot be read.
-pub(super) fn plain_meshes(document: &Document) -> Result<Vec<(String, Mesh)>, FileError> {
+pub(super) fn plain_meshes(document: &Document) -> Result<Vec<SeparateMesh>, FileError> {
     let entries = document.meshes();
     let mut sharing: BTreeMap<usize, Vec<&MeshEntry>> = BTreeMap::new();
-    for entry in entries {
+    for entry in entries.iter().filter(|entry| entry.level.is_none()) {
         sharing.entry(entry.vertex_group).or_default().push(entry);
     }
 
     let mut meshes = Vec::new();
-    for (entry, positions) in entries.iter().zip(document.positions_of_each()) {
+    let each = entries.iter().zip(document.positions_of_each()).enumerate();
+    for (number, (entry, positions)) in each {
+        if entry.level.is_some() {
+            continue;
+        }
         let positions = positions?;
         let positions = positions.as_deref().unwrap_or_default();
         let vertex_count = entry.mesh.vertex_count();
@@ -43,7 +55,11 @@ pub(super) fn plain_meshes(document: &Document) -> Result<Vec<(String, Mesh)>, F
             let problem = FileErrorKind::Order(error).at(Place::File);
             problem.in_file(document.path(), Some(document.format()))
         })?;
-        meshes.push((entry.name.clone(), mesh));
+        meshes.push(SeparateMesh {
+            number,
+            name: entry.name.clone(),
+            mesh,
+        });
     }
     Ok(meshes)
 }
@@ -132,7 +148,7 @@ mod tests {
         let meshes = plain_meshes(&primitives(3, 11)).unwrap();
         // The first one has what no other has too.
         let firsts = [0.0, 3.0, 6.0];
-        for ((_, mesh), first) in meshes.iter().zip(firsts) {
+        for (SeparateMesh { mesh, .. }, first) in meshes.iter().zip(firsts) {
             assert_eq!(mesh.faces(), [[0, 1, 2]]);
             let found: Vec<f32> = mesh.positions().iter().map(|it| it[0]).collect();
             let mut expected = vec![first, first + 1.0, first + 2.0];
@@ -147,6 +163,6 @@ mod tests {
         let count = 20_000;
         let meshes = plain_meshes(&primitives(count, 3 * count)).unwrap();
         assert_eq!(meshes.len(), count as usize);
-        assert!(meshes.iter().all(|(_, mesh)| mesh.vertex_count() == 3));
+        assert!(meshes.iter().all(|it| it.mesh.vertex_count() == 3));
     }
 }

@@ -5,7 +5,9 @@
 #[expect(dead_code, reason = "shared with other tests")]
 mod builder;
 mod compare;
+mod cull;
 mod inspect;
+mod left_out;
 mod made;
 mod order;
 mod simplify;

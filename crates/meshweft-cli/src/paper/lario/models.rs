@@ -79,7 +79,8 @@ impl Named {
 
     fn face_count(&self) -> usize {
         let meshes = self.document.meshes().iter();
-        meshes.map(|it| it.mesh.face_count()).sum()
+        let full = meshes.filter(|it| it.level.is_none());
+        full.map(|it| it.mesh.face_count()).sum()
     }
 
     pub(super) fn is_large(&self) -> bool {

@@ -15,7 +15,7 @@ use crate::geometry::Lattice;
 use crate::limits::Limits;
 use crate::mesh::Mesh;
 use crate::operations::losses::{self, Losses};
-use crate::operations::plain_meshes::plain_meshes;
+use crate::operations::plain_meshes::{SeparateMesh, plain_meshes};
 use crate::permutation::{FaceOrder, VertexOrder};
 
 pub use crate::compression::{KeepOrder, PolygonCounts, Tier};
@@ -28,7 +28,7 @@ pub use report::{CompressReport, CompressedMesh};
 /// Each mesh keeps its name, its faces and its vertices. Of meshes that share vertices, as two primitives of a glTF
 /// may, each gets those that its faces have, and the first also those that none has. A document that holds anything else
 /// is refused, unless the options say that it is left out: attributes, what is said of some faces only (groups, materials),
-/// lines, nodes with a place, everything that is not known. Comments, header text and how numbers are written do not count.
+/// lines, nodes with a place, levels of detail, everything that is not known. Comments, header text and how numbers are written do not count.
 ///
 /// # Errors
 /// The document has no mesh, or one that is not all positions and triangles, or more than these, or positions that cannot
@@ -48,7 +48,7 @@ pub fn compress(
     let positions = || {
         meshes
             .iter()
-            .flat_map(|(_, mesh)| mesh.positions().iter().copied())
+            .flat_map(|plain| plain.mesh.positions().iter().copied())
     };
     let lattice = match options.positions {
         PositionPrecision::Lossless => None,
@@ -64,7 +64,8 @@ pub fn compress(
     // Mesh by mesh.
     let mut archive = MeshArchive::default();
     let mut compressed = Vec::new();
-    for ((name, mesh), entry) in meshes.iter().zip(document.meshes()) {
+    for SeparateMesh { number, name, mesh } in &meshes {
+        let entry = &document.meshes()[*number];
         let starts = entry.polygons.as_deref().filter(|_| !options.triangles);
         let first_vertex = options.first_vertex.choose(mesh);
         let options = CodeOptions {
@@ -145,7 +146,8 @@ fn check(document: &Document, options: &CompressOptions) -> Result<(), CompressE
     if entries.is_empty() {
         return Err(CompressError::NoMesh { file: file() });
     }
-    for (number, entry) in entries.iter().enumerate() {
+    let all = entries.iter().enumerate();
+    for (number, entry) in all.filter(|(_, entry)| entry.level.is_none()) {
         let (file, mesh) = (file(), entry.name.clone());
         if entry.has_other_faces {
             return Err(CompressError::UnreadFaces { file, mesh });

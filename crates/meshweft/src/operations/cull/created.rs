@@ -54,9 +54,9 @@ pub(super) fn created(document: &Document, options: &CullOptions) -> Result<Crea
 
     // The rest.
     let plain = plain_meshes(document)?;
-    let meshes = plain.iter().filter(|(_, mesh)| mesh.face_count() > 0);
+    let meshes = plain.iter().filter(|it| it.mesh.face_count() > 0);
     let meshes: Vec<NewMesh<'_>> = meshes
-        .map(|(name, mesh)| NewMesh::plain(name, mesh.positions(), mesh.faces()))
+        .map(|it| NewMesh::plain(&it.name, it.mesh.positions(), it.mesh.faces()))
         .collect();
     if meshes.is_empty() {
         return Err(CullError::NoFaces { file: file() });

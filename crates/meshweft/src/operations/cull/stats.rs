@@ -15,7 +15,8 @@ use crate::files::{Document, FileError, MeshEntry, Note, PlacedTable, StoredCull
 /// Several primitives may draw the faces of a mesh; each table is judged by the positions of its own. Directions are
 /// spread at random over the sphere, always the same ones. A face that faces the eye and is not drawn is counted too:
 /// there is none, if the table matches the faces. A table that does not match them, or that cannot be used, is among
-/// [`CullStatsReport::wrong`], with its place.
+/// [`CullStatsReport::wrong`], with its place. The tables of levels of detail are only looked at for that: what is counted is of
+/// meshes at full resolution.
 ///
 /// # Errors
 /// Positions cannot be read.
@@ -43,10 +44,10 @@ pub fn cull_stats(
     document.each_table(&mut |placed| {
         let mesh = placed.mesh;
         let place = placed.place.clone();
-        match figures(&document.meshes()[mesh], placed, options) {
+        let entry = &document.meshes()[mesh];
+        match figures(entry, placed, options) {
             Ok(None) => {}
             Ok(Some(figures)) => {
-                judged.insert(mesh);
                 let wrong: u64 = figures.views.iter().map(|view| view.wrongly_rejected).sum();
                 if wrong > 0 {
                     report.wrong.push(Note::new(place, format!(
@@ -54,16 +55,20 @@ pub fn cull_stats(
                         figures.name
                     )));
                 }
-                report.total.add(&figures);
-                report.meshes.push(figures);
+                if entry.level.is_none() {
+                    judged.insert(mesh);
+                    report.total.add(&figures);
+                    report.meshes.push(figures);
+                }
             }
             Err(why) => {
-                let name = &document.meshes()[mesh].name;
+                let name = &entry.name;
                 report.wrong.push(Note::new(place, format!("{name}: {why}")));
             }
         }
     })?;
-    report.without = document.meshes().len() - judged.len();
+    let full = document.meshes().iter().filter(|it| it.level.is_none());
+    report.without = full.count() - judged.len();
     Ok(report)
 }
 

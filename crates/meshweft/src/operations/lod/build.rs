@@ -8,7 +8,7 @@ use super::loading::{JoinedMesh, joined, no_faces};
 use super::options::LodError;
 use super::read_back;
 use crate::attribute::{AttributeInfo, Domain, Semantic};
-use crate::files::{Document, Note};
+use crate::files::{Document, MeshEntry, Note};
 use crate::lod::fast_mesh::FastMesh;
 use crate::mesh::Mesh;
 use crate::operations::json;
@@ -103,7 +103,7 @@ pub(super) fn names(attributes: &[AttributeInfo]) -> Value {
 ///
 /// The file has positions and faces, and the attributes of vertices if all meshes have the same ones, bit for bit. A document that holds
 /// more is refused, unless the options say that the rest is left out: attributes of corners and faces, polygons, names and borders
-/// of several meshes, what is said of some faces only (groups, materials), lines, nodes with a place, everything that is not known.
+/// of several meshes, what is said of some faces only (groups, materials), lines, nodes with a place, levels of detail, everything that is not known.
 /// Positions are as the file stores them. What no face needs is left out: vertices that none uses, faces with two corners at one
 /// place.
 ///
@@ -146,7 +146,8 @@ pub fn lod_build(
         return Err(no_faces(document));
     }
 
-    let hierarchy = match document.meshes() {
+    let full: Vec<&MeshEntry> = full_meshes(document).collect();
+    let hierarchy = match full[..] {
         [only] => hierarchy.with_name(&only.name),
         _ => hierarchy,
     };
@@ -157,7 +158,7 @@ pub fn lod_build(
         bytes_before: document.source_bytes(),
         bytes_after: bytes.len() as u64,
         seconds: None,
-        meshes: document.meshes().len(),
+        meshes: full.len(),
         vertices: hierarchy.vertex_count(),
         faces: mesh.face_count() - flat_faces,
         roots: 0,
@@ -183,10 +184,17 @@ fn used_vertices(mesh: &Mesh) -> usize {
     is_used.into_iter().filter(|&used| used).count()
 }
 
+/// The meshes that the file has, which are those at full resolution.
+fn full_meshes(document: &Document) -> impl Iterator<Item = &MeshEntry> {
+    let entries = document.meshes().iter();
+    entries.filter(|entry| entry.level.is_none())
+}
+
 /// The attributes of vertices that all meshes with faces have.
 fn attributes_of_all(document: &Document) -> Vec<AttributeInfo> {
     let entries = document.meshes().iter().enumerate();
-    let with_faces = entries.filter(|(_, entry)| entry.mesh.face_count() > 0);
+    let full = entries.filter(|(_, entry)| entry.level.is_none());
+    let with_faces = full.filter(|(_, entry)| entry.mesh.face_count() > 0);
     let mut each = with_faces.map(|(number, _)| {
         let is_place = |info: &AttributeInfo| {
             info.semantic == Semantic::Position && info.morph_target.is_none()
@@ -213,8 +221,7 @@ fn check(
     kept: &[AttributeInfo],
 ) -> Result<(), LodError> {
     let file = || document.path().to_owned();
-    let entries = document.meshes();
-    let unread = entries.iter().find(|entry| entry.has_other_faces);
+    let unread = full_meshes(document).find(|entry| entry.has_other_faces);
     let unread = unread.map(|entry| entry.name.clone());
     if let Some(mesh) = losses::unread_outside(document).or(unread) {
         return Err(LodError::UnreadFaces { file: file(), mesh });
@@ -225,18 +232,18 @@ fn check(
 
     let mut lost = Losses::of(document, |_, info| kept.contains(info))?;
     let others = &mut lost.others;
-    if entries.len() > 1 {
-        others.push(format!("{} meshes, which become one", entries.len()));
+    let count = full_meshes(document).count();
+    if count > 1 {
+        others.push(format!("{count} meshes, which become one"));
     }
     let has_polygons = |polygons: &Vec<u32>| polygons.windows(2).any(|ends| ends[1] - ends[0] > 1);
-    if entries
-        .iter()
+    if full_meshes(document)
         .filter_map(|it| it.polygons.as_ref())
         .any(has_polygons)
     {
         others.push("polygons, which become triangles".to_owned());
     }
-    let mut numbers = 0..entries.len();
+    let mut numbers = 0..document.meshes().len();
     if numbers.any(|mesh| losses::has_wide_positions(document, mesh)) {
         others.push("positions of more bits than a 32-bit float".to_owned());
     }

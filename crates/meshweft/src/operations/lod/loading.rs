@@ -11,7 +11,7 @@ use crate::geometry::Ball;
 use crate::index::index32;
 use crate::lod::fast_mesh::{FastMesh, VertexHierarchy};
 use crate::mesh::Mesh;
-use crate::operations::plain_meshes::plain_meshes;
+use crate::operations::plain_meshes::{SeparateMesh, plain_meshes};
 use crate::progress::Progress;
 
 /// What is walked around.
@@ -49,12 +49,12 @@ pub(super) struct JoinedMesh {
     pub(super) attributes: Vec<Attribute>,
 }
 
-/// All meshes as one, the vertices of each after those of the one before, with attributes of vertices that all have.
+/// All meshes at full resolution as one, the vertices of each after those of the one before, with attributes of vertices that all have.
 pub(super) fn joined(document: &Document, kept: &[AttributeInfo]) -> Result<JoinedMesh, LodError> {
     let file = || document.path().to_owned();
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     let mut columns = JoinedColumns::new(kept);
-    for (number, (name, mesh)) in plain_meshes(document)?.into_iter().enumerate() {
+    for SeparateMesh { number, name, mesh } in plain_meshes(document)? {
         if mesh.face_count() == 0 {
             continue;
         }

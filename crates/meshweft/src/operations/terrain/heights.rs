@@ -143,8 +143,8 @@ impl TerrainHeights {
             }
             let own_notes = document.notes().iter();
             notes.extend(own_notes.map(|note| (path.clone(), note.clone())));
-            for (_, mesh) in plain_meshes(&document)? {
-                points.extend_from_slice(mesh.positions());
+            for plain in plain_meshes(&document)? {
+                points.extend_from_slice(plain.mesh.positions());
             }
         }
         if options.is_z_up {
