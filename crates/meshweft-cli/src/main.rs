@@ -9,6 +9,7 @@ mod cull;
 mod decompress;
 mod demo;
 mod inspect;
+mod levels;
 mod lod;
 mod optimize;
 mod paper;
@@ -30,6 +31,7 @@ use cull::Cull;
 use decompress::Decompress;
 use demo::Demo;
 use inspect::Inspect;
+use levels::Levels;
 use lod::Lod;
 use optimize::Optimize;
 use paper::Paper;
@@ -71,6 +73,18 @@ enum Verb {
     ///   meshweft simplify assets --faces 5000 --effort best -o coarse --keep-going --json
     #[command(verbatim_doc_comment)]
     Simplify(Simplify),
+    /// Add levels of detail to a file: one ordinary GLB that every loader shows
+    ///
+    /// Each level is an index list over the first vertices of the views that are there, in an order of its own; nodes name
+    /// their levels by MSFT_lod, with the share of a picture below which each is enough. What was there keeps its bytes, but
+    /// vertices change places. Skins, morph targets, seams and meshes of several primitives stay whole, and all objects have
+    /// one error budget.
+    ///
+    ///   meshweft levels scene.glb -o levels.glb
+    ///   meshweft levels scene.glb --ratios 0.5,0.2,0.05 --effort best -o levels.glb
+    ///   meshweft levels scan.ply --errors .1%,.5%,2% -o scan.glb
+    #[command(verbatim_doc_comment)]
+    Levels(Levels),
     /// Store the positions and faces of a file in few bytes, in the order to be drawn
     ///
     /// Every mesh comes back with each face and vertex, whatever its edges: nothing is split or joined. The result is
@@ -121,6 +135,7 @@ fn main() -> ExitCode {
     let done = match &Arguments::parse().verb {
         Verb::Optimize(arguments) => optimize::run(arguments),
         Verb::Simplify(arguments) => simplify::run(arguments),
+        Verb::Levels(arguments) => levels::run(arguments),
         Verb::Compress(arguments) => compress::run(arguments),
         Verb::Decompress(arguments) => decompress::run(arguments),
         Verb::Cull(arguments) => cull::run(arguments),

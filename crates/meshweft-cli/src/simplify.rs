@@ -1,7 +1,6 @@
 //! `simplify`: fewer faces.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
@@ -9,13 +8,14 @@ use clap::Args;
 use meshweft::CacheModel;
 use meshweft::files::Document;
 use meshweft::operations::{
-    self, AttributeWeights, ErrorLimit, LEVEL_CACHES, LevelFigures, SimplifiedObject,
-    SimplifyOptions, SimplifyReport, StopReason,
+    self, AttributeWeights, LEVEL_CACHES, LevelFigures, SimplifiedObject, SimplifyOptions,
+    SimplifyReport, StopReason,
 };
 
 use crate::plot::{self, Axis, Curve};
 use crate::run::arguments::{Reading, Run};
 use crate::run::ending::{Ending, where_it_went};
+use crate::run::error_limit::Error;
 use crate::run::jobs::{Job, Jobs};
 use crate::run::ordering::Ordering;
 use crate::run::output::Report;
@@ -76,27 +76,6 @@ pub(crate) struct Simplify {
     reading: Reading,
     #[command(flatten)]
     report: Report,
-}
-
-/// An error such as `0.01` or `1%`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Error(ErrorLimit);
-
-impl FromStr for Error {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let number = |text: &str| {
-            let number: Result<f64, _> = text.trim().parse();
-            number.map_err(|_| {
-                "a length such as 0.01, or a share of the diagonal such as 1%".to_owned()
-            })
-        };
-        Ok(Self(match text.strip_suffix('%') {
-            Some(percent) => ErrorLimit::Diagonal(number(percent)? / 100.0),
-            None => ErrorLimit::Units(number(text)?),
-        }))
-    }
 }
 
 /// Levels of a plot.
@@ -330,19 +309,4 @@ fn stop_lines(report: &SimplifyReport) -> Vec<String> {
 fn name<'a>(report: &'a SimplifyReport, object: &SimplifiedObject) -> &'a str {
     let first = object.meshes.first();
     first.map_or("", |&mesh| &report.meshes[mesh].name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn errors_are_lengths_or_percents() {
-        let error = |text: &str| text.parse::<Error>().map(|error| error.0);
-        assert_eq!(error("0.25"), Ok(ErrorLimit::Units(0.25)));
-        assert_eq!(error(".5%"), Ok(ErrorLimit::Diagonal(0.005)));
-        for bad in ["", "%", "1 mm", "a%"] {
-            assert!(error(bad).is_err(), "{bad}");
-        }
-    }
 }

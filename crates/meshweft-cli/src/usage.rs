@@ -4,7 +4,7 @@ use std::fmt;
 
 use anyhow::Error;
 use meshweft::files::{FileError, FileErrorKind};
-use meshweft::operations::{CompressError, CullError, LodError};
+use meshweft::operations::{CompressError, ConversionError, CullError, LevelsError, LodError};
 
 /// What the command line asks for cannot be done; exit code 2.
 #[derive(Debug)]
@@ -24,7 +24,12 @@ impl std::error::Error for Usage {}
 /// is named here.
 pub(crate) fn message(error: &Error) -> String {
     let text = format!("{error:#}");
-    if let Some(CullError::Lost { .. }) = error.downcast_ref() {
+    let conversion = match (error.downcast_ref(), error.downcast_ref()) {
+        (Some(CullError::Conversion(error)), _) => Some(error),
+        (_, Some(LevelsError::Conversion(error))) => Some(error),
+        _ => None,
+    };
+    if let Some(ConversionError::Lost { .. }) = conversion {
         return text.replace("drop_attributes", "--drop-attributes");
     }
     match error.downcast_ref() {

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 use clap::Args;
-use meshweft::files::{Document, Format};
+use meshweft::files::Document;
 use meshweft::operations::{self, CullOptions, CullOutcome, CullReport};
 use meshweft::order::Target;
 
@@ -141,15 +141,7 @@ fn build(
 ) -> Result<Outcome> {
     let start = Instant::now();
     let mut document = Document::open(&job.input, arguments.reading.options(&jobs.shared_buffers))?;
-    let becomes_glb = !matches!(document.format(), Format::Gltf | Format::Glb);
-    if becomes_glb && !arguments.run.dry_run && Format::of_path(&job.target) != Some(Format::Glb) {
-        let text = format!(
-            "{}: a .glb is made of it: give the output that ending, not {}",
-            job.input.display(),
-            job.target.display()
-        );
-        return Err(Usage(text).into());
-    }
+    job.check_that_glb_fits(document.format(), &arguments.run)?;
 
     let watch = Watch::new(None, shows_bar);
     let mut report = operations::cull_build(&mut document, options, &watch)?;

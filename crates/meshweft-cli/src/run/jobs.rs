@@ -113,7 +113,88 @@ impl Jobs {
     }
 }
 
+/// What the name of a level ends with, before its number.
+const LEVEL: &str = "_LOD";
+
+impl Jobs {
+    /// The same jobs, each of which writes so many files: the names of levels 1, 2 … ; the first one is the target.
+    ///
+    /// # Errors
+    /// One of them is an input, or the target of two jobs.
+    pub(crate) fn in_levels(mut self, count: usize) -> Result<Self, Usage> {
+        let inputs = self.list.iter().filter_map(|job| whole(&job.input));
+        let inputs: BTreeSet<PathBuf> = inputs.collect();
+        let mut seen = BTreeSet::new();
+        for job in &mut self.list {
+            job.target = level_name(&job.target, 1);
+            for number in 1..=count {
+                let target = job.at_level(number).target;
+                if whole(&target).is_some_and(|target| inputs.contains(&target)) {
+                    let (target, input) = (target.display(), job.input.display());
+                    let text = format!(
+                        "{target} would be written over by level {number} of {input}, and is an input too: choose \
+                         another output"
+                    );
+                    return Err(Usage(text));
+                }
+                if !seen.insert(target.clone()) {
+                    let text = format!("two levels would be written to {}", target.display());
+                    return Err(Usage(text));
+                }
+            }
+        }
+        let levels = self.list.iter().flat_map(|job| {
+            let targets = (1..=count).map(|number| job.at_level(number).target);
+            targets.map(|target| (job.input.clone(), target))
+        });
+        let levels: Vec<(PathBuf, PathBuf)> = levels.collect();
+        let pairs = levels.iter();
+        self.outputs = Outputs::of(pairs.map(|(input, target)| (&**input, &**target)));
+        Ok(self)
+    }
+}
+
+/// A name with the number of a level before its ending.
+fn level_name(path: &Path, number: usize) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    // The ending may be two, as .ply.gz.
+    let without_gz = name.strip_suffix(".gz").unwrap_or(&name);
+    let end = without_gz.rfind('.').filter(|&dot| dot > 0);
+    let (stem, ending) = name.split_at(end.unwrap_or(without_gz.len()));
+    path.with_file_name(format!("{stem}{LEVEL}{number}{ending}"))
+}
+
 impl Job {
+    /// The job whose target is another level than this one's, which is the first.
+    pub(crate) fn at_level(&self, number: usize) -> Self {
+        let name = self.target.file_name().unwrap_or_default();
+        let name = name.to_string_lossy();
+        let first = format!("{LEVEL}1");
+        let target = match name.rfind(&first) {
+            Some(place) => {
+                let (stem, ending) = (&name[..place], &name[place + first.len()..]);
+                let name = format!("{stem}{LEVEL}{number}{ending}");
+                self.target.with_file_name(name)
+            }
+            None => level_name(&self.target, number),
+        };
+        let input = self.input.clone();
+        Self { input, target }
+    }
+
+    /// Refuses to write the GLB that is made of a file of another format under another ending.
+    pub(crate) fn check_that_glb_fits(&self, format: Format, run: &Run) -> Result<(), Usage> {
+        let becomes_glb = !matches!(format, Format::Gltf | Format::Glb);
+        if !becomes_glb || run.dry_run || Format::of_path(&self.target) == Some(Format::Glb) {
+            return Ok(());
+        }
+        Err(Usage(format!(
+            "{}: a .glb is made of it: give the output that ending, not {}",
+            self.input.display(),
+            self.target.display()
+        )))
+    }
+
     /// Refuses a target that is the input: that takes `--in-place`.
     fn check_that_input_stays(&self) -> Result<(), Usage> {
         // Most targets do not exist yet, and then are not an input either.
@@ -157,4 +238,26 @@ fn is_folder(out: &Path) -> bool {
 /// other name becomes a folder where several files need one.
 fn is_file(out: &Path) -> bool {
     !is_folder(out) && (out.exists() || Format::of_path(out).is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_numbered_before_the_ending() {
+        for (name, expected) in [
+            ("out/scan.ply", "out/scan_LOD3.ply"),
+            ("scan.v2.ply.gz", "scan.v2_LOD3.ply.gz"),
+            ("scan", "scan_LOD3"),
+            ("a_LOD1.glb", "a_LOD1_LOD3.glb"),
+            (".glb", ".glb_LOD3"),
+        ] {
+            let first = Job {
+                input: PathBuf::new(),
+                target: level_name(Path::new(name), 1),
+            };
+            assert_eq!(first.at_level(3).target, Path::new(expected));
+        }
+    }
 }

@@ -7,6 +7,7 @@
 pub(crate) mod arguments;
 mod batch;
 pub(crate) mod ending;
+pub(crate) mod error_limit;
 pub(crate) mod inputs;
 mod interrupt;
 pub(crate) mod jobs;

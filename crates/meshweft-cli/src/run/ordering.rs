@@ -107,7 +107,7 @@ impl From<Mode> for order::Mode {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Effort {
+pub(crate) enum Effort {
     /// About three times meshoptimizer's time, for one cache less than that
     Fast,
     /// About ten times meshoptimizer's time

@@ -6,6 +6,7 @@ use std::{fmt, io};
 use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
+use super::new_levels::NewLevels;
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::placing::{Beside, Placed};
@@ -83,6 +84,19 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     /// Does [`Edit::Cull`](super::Edit::Cull), or changes nothing; the notes of the document as it then is.
     fn cull(&mut self, _tables: &[(usize, &StoredCulling)]) -> Result<Vec<Note>, Problem> {
         let text = "culling tables can be added to .gltf and .glb files only";
+        Err(FileErrorKind::unsupported(text).at(Place::File))
+    }
+    /// For each mesh, whether all that draws its faces has the same vertices.
+    fn draws_alike(&self) -> Vec<bool> {
+        vec![true; self.meshes().len()]
+    }
+    /// For each mesh, the largest scale that it is drawn with; 1 where none is known.
+    fn drawn_scales(&self) -> Vec<f64> {
+        vec![1.0; self.meshes().len()]
+    }
+    /// Does [`Edit::Levels`](super::Edit::Levels), or changes nothing; the notes of the document as it then is.
+    fn add_levels(&mut self, _meshes: &[NewLevels]) -> Result<Vec<Note>, Problem> {
+        let text = "levels of detail can be added to .gltf and .glb files only";
         Err(FileErrorKind::unsupported(text).at(Place::File))
     }
     /// The files beside the main one.

@@ -383,6 +383,20 @@ impl Document {
         self.content.seen_sides()
     }
 
+    /// For each mesh, the largest scale that it is drawn with by nodes and joints as they stand; 1 where none is known.
+    ///
+    /// Time O(bytes of text).
+    pub(crate) fn drawn_scales(&self) -> Vec<f64> {
+        self.content.drawn_scales()
+    }
+
+    /// For each mesh, whether all that draws its faces has the same vertices.
+    ///
+    /// Time O(bytes of text).
+    pub(crate) fn draws_alike(&self) -> Vec<bool> {
+        self.content.draws_alike()
+    }
+
     /// What the file holds that is neither in its meshes nor in their attributes: materials, lines, what is said
     /// of some faces only.
     ///
@@ -395,7 +409,6 @@ impl Document {
         unlisted
     }
 
-    /// The attribute that is the positions of a mesh.
     /// The positions of the vertices of a file without faces, such as a point cloud in a PLY file; empty if it has faces.
     pub(crate) fn loose_positions(&self) -> Result<Vec<[f32; 3]>, FileError> {
         let found = self.content.loose_positions();
@@ -404,6 +417,7 @@ impl Document {
         Ok(numbers.as_chunks().0.to_vec())
     }
 
+    /// The attribute that is the positions of a mesh.
     fn position_info(&self, mesh: usize) -> Option<AttributeInfo> {
         let mut infos = self.attributes(mesh).into_iter();
         infos.find(AttributeInfo::is_vertex_position)
@@ -448,6 +462,15 @@ impl Document {
                     return Ok(());
                 }
                 let notes = self.content.cull(tables);
+                self.notes =
+                    notes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
+                self.is_edited = true;
+            }
+            Edit::Levels { meshes } => {
+                if meshes.is_empty() {
+                    return Ok(());
+                }
+                let notes = self.content.add_levels(meshes);
                 self.notes =
                     notes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
                 self.is_edited = true;

@@ -2,6 +2,7 @@
 
 use super::entry::MeshEntry;
 use super::error::FileErrorKind;
+use super::new_levels::NewLevels;
 use super::new_mesh::NewMesh;
 use super::select::{SelectedFaces, SelectedVertices};
 use super::stored_culling::StoredCulling;
@@ -70,6 +71,16 @@ pub enum Edit<'a> {
     Cull {
         /// The number of each mesh, which has none yet, and a table of its faces as they are now.
         tables: &'a [(usize, &'a StoredCulling)],
+    },
+    /// Meshes of a glTF or GLB get levels of detail, added as by [`Append`](Self::Append): an index list and a mesh for each
+    /// level, and nodes that stand in for those that draw the mesh (the extension `MSFT_lod`). Every reader that does not know
+    /// the extension shows what it showed before.
+    ///
+    /// What is below a node that is stood in for is copied with it as far as it draws something, and animations move copies
+    /// alike. A primitive that gets no levels is as it is in all levels of its glTF mesh.
+    Levels {
+        /// The levels of each mesh.
+        meshes: &'a [NewLevels],
     },
 }
 

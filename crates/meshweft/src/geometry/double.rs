@@ -69,6 +69,14 @@ impl Bounds {
         }
     }
 
+    /// The middle; the origin without points.
+    pub(crate) fn center(&self) -> [f64; 3] {
+        match self.low[0] <= self.high[0] {
+            true => scaled(add(self.low, self.high), 0.5),
+            false => [0.0; 3],
+        }
+    }
+
     /// How long the diagonal is; 0 without points.
     pub(crate) fn diagonal(&self) -> f64 {
         match self.low[0] <= self.high[0] {

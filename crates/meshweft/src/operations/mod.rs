@@ -2,7 +2,7 @@
 //! its report.
 //!
 //! [`optimize_indices`] orders raw indices in place. With feature `files`, `optimize` orders a
-//! document and keeps every other byte, `simplify` takes faces away from it, `inspect` counts it as it is, and
+//! document and keeps every other byte, `simplify` takes faces away from it, `levels` adds levels of detail to it, `inspect` counts it as it is, and
 //! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads, `cull_build` adds tables that say which faces need not be
 //! drawn, and `cull_stats` counts what these leave out, `lod_build` makes a file of a mesh with every level of detail,
 //! `lod_extract` takes one mesh from it, `lod_walk` walks around one whose detail follows the eye, and `lod_verify` measures how far
@@ -21,6 +21,8 @@ mod better;
 mod compare;
 #[cfg(feature = "files")]
 mod compress;
+#[cfg(feature = "files")]
+mod converted;
 mod counts;
 #[cfg(feature = "files")]
 mod cull;
@@ -41,6 +43,8 @@ mod inspect;
 #[cfg(feature = "files")]
 mod json;
 #[cfg(feature = "files")]
+mod levels;
+#[cfg(feature = "files")]
 mod lod;
 #[cfg(feature = "files")]
 mod losses;
@@ -56,6 +60,8 @@ mod sequence_updates;
 mod shared_progress;
 #[cfg(feature = "files")]
 mod simplify;
+#[cfg(feature = "files")]
+mod stage;
 mod striped_mesh;
 #[cfg(feature = "height-maps")]
 mod terrain;
@@ -72,6 +78,8 @@ pub use compress::{
     DecompressOptions, DecompressedMesh, KeepOrder, PolygonCounts, PositionPrecision, Tier,
     compress, decompress,
 };
+#[cfg(feature = "files")]
+pub use converted::ConversionError;
 pub use counts::{Counts, USUAL_CACHES};
 #[cfg(feature = "files")]
 pub use cull::{
@@ -86,6 +94,11 @@ pub use indices::{IndexOptions, Orders, VertexIndex, optimize_indices, optimize_
 pub use inspect::{InspectReport, InspectedLevel, InspectedMesh, inspect};
 #[cfg(feature = "files")]
 pub use json::SCHEMA;
+#[cfg(feature = "files")]
+pub use levels::{
+    FileLevel, LevelGoals, LeveledObject, LevelsError, LevelsOptions, LevelsOptionsError,
+    LevelsReport, levels, levels_apart,
+};
 #[cfg(feature = "files")]
 pub use lod::{
     CameraPath, ExtractedMesh, LodBuildOptions, LodBuildReport, LodDetail, LodError,

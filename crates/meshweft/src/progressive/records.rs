@@ -67,6 +67,12 @@ impl<'a> Collapse<'a> {
             })
     }
 
+    /// Whether a part leaves as a whole: nothing takes the corners of its vertices.
+    #[must_use]
+    pub fn is_of_part(self) -> bool {
+        self.pairs().any(|pair| pair.from == pair.to)
+    }
+
     /// How far the surface after this removal is from that at full resolution, as an estimate in units of
     /// the positions; never less than that of a removal before.
     #[must_use]

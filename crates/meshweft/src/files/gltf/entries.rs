@@ -138,6 +138,12 @@ impl Entries {
         Ok(entries)
     }
 
+    /// The mesh with the faces of a primitive, if that has faces that are in one.
+    pub(super) fn mesh_of(&self, number: PrimitiveNumber) -> Option<usize> {
+        let first = self.repeated.get(&number).unwrap_or(&number);
+        self.first_primitives.binary_search(first).ok()
+    }
+
     /// Gives each group its vertex records, and sorts and joins all that it has.
     fn add_vertices(&mut self, byte_users: &ByteUsers, group_of: &[usize]) {
         // All primitives that read some records are of one group.

@@ -13,10 +13,10 @@ use super::object::Object;
 use crate::files::entry::MeshLevel;
 
 /// The extension that names the levels of a node.
-const NAME: &str = "MSFT_lod";
+pub(super) const NAME: &str = "MSFT_lod";
 
 /// What a mesh has in its extras where its error is known.
-const EXTRAS: &str = "MESHWEFT_level";
+pub(super) const EXTRAS: &str = "MESHWEFT_level";
 
 /// Gives meshes their levels.
 ///

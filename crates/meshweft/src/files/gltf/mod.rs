@@ -22,7 +22,8 @@
 //! What is left out goes through [`select`]: [`leaving`] moves up the records that stay, [`byte_map`] says
 //! where the rest then stands, [`stated_bounds`] has the smallest and largest values.
 //! What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the bytes and
-//! values, [`growth`] has the buffer for them, [`scene`] finds where they are drawn, [`additions`] puts values into the text.
+//! values, [`growth`] has the buffer for them, [`scene`] finds where they are drawn,
+//! [`new_levels`] adds levels of detail, [`level_nodes`] the nodes that draw these, [`additions`] puts values into the text.
 //!
 //! | word | what it is |
 //! |---|---|
@@ -66,6 +67,7 @@ mod byte_users;
 mod companions;
 mod container;
 mod culling;
+mod drawn_scales;
 mod elements;
 mod entries;
 mod extensions;
@@ -73,12 +75,14 @@ mod groups;
 mod growth;
 mod json;
 mod leaving;
+mod level_nodes;
 mod levels;
 #[cfg(test)]
 mod levels_tests;
 mod movable;
 mod neighbours;
 mod new_attributes;
+mod new_levels;
 mod new_meshes;
 mod new_tables;
 mod notes;
@@ -111,6 +115,7 @@ use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
+use super::new_levels::NewLevels;
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
@@ -459,6 +464,18 @@ impl Content for GltfFile {
 
     fn cull(&mut self, tables: &[(usize, &StoredCulling)]) -> Result<Vec<Note>, Problem> {
         GltfFile::cull(self, tables)
+    }
+
+    fn drawn_scales(&self) -> Vec<f64> {
+        self.found_scales()
+    }
+
+    fn draws_alike(&self) -> Vec<bool> {
+        self.found_alike()
+    }
+
+    fn add_levels(&mut self, meshes: &[NewLevels]) -> Result<Vec<Note>, Problem> {
+        GltfFile::add_levels(self, meshes)
     }
 
     fn beside(&self) -> Vec<Beside<'_>> {

@@ -195,6 +195,23 @@ impl<'a> NewMeshes<'a> {
         }))
     }
 
+    /// Adds a mesh of which this is the text; its number.
+    pub(super) fn mesh(&mut self, json: String) -> usize {
+        self.additions.element("meshes", json);
+        self.next_mesh += 1;
+        self.next_mesh - 1
+    }
+
+    /// The number of one more node, whose text is to be added when it is its turn.
+    pub(super) fn new_node(&mut self) -> usize {
+        self.scenes.new_node()
+    }
+
+    /// Adds the text of a node.
+    pub(super) fn node(&mut self, json: String) {
+        self.additions.element("nodes", json);
+    }
+
     /// Adds numbers that are neither vertices nor their indices; the number of their accessor.
     pub(super) fn numbers(
         &mut self,

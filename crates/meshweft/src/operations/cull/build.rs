@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
-use super::created::created;
 use super::options::{CullError, CullOptions};
 use super::report::{CullOutcome, CullReport, CulledMesh};
 use crate::culling::{CullingTable, NormalStripes};
@@ -13,6 +12,7 @@ use crate::files::{Document, Edit, FileError, Format, MeshEntry, SeenSides, Stor
 use crate::first_use::{FirstUse, keeps_blocks};
 use crate::index::index32;
 use crate::mesh::Mesh;
+use crate::operations::converted::converted;
 use crate::operations::file_report::FileReport;
 use crate::permutation::FaceOrder;
 use crate::progress::Progress;
@@ -56,8 +56,8 @@ pub fn cull_build(
     let mut lost = Vec::new();
     let is_created = !matches!(document.format(), Format::Gltf | Format::Glb);
     if is_created {
-        let created = created(document, options)?;
-        (*document, lost) = (created.document, created.lost);
+        let glb = converted(document, options.drop_attributes)?;
+        (*document, lost) = (glb.document, glb.lost);
     }
     let with_table = (0..document.meshes().len()).find(|&mesh| document.culling(mesh).is_some());
     if let Some(mesh) = with_table {

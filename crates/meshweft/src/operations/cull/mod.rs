@@ -1,11 +1,8 @@
 //! Which faces of a document need not be drawn, and what that saves.
 //!
-//! Read `build` for how a document gets its tables, `created` for what becomes of one in another format, `eyes` for
-//! how eyes are listed, `stats` for what
-//! tables leave out.
+//! Read `build` for how a document gets its tables, `eyes` for how eyes are listed, `stats` for what tables leave out.
 
 mod build;
-mod created;
 mod eyes;
 mod options;
 mod report;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::culling::{SampledEyes, ViewClusters};
 use crate::files::FileError;
+use crate::operations::converted::ConversionError;
 use crate::operations::options::{OptionsError, check_target};
 
 /// How a document gets culling tables.
@@ -119,25 +120,8 @@ pub enum CullError {
         /// The mesh.
         mesh: String,
     },
-    /// A GLB of its positions and faces would lose what the document also has.
-    Lost {
-        /// The file.
-        file: PathBuf,
-        /// What that is.
-        what: Vec<String>,
-    },
-    /// A GLB would lose faces that were not read.
-    UnreadFaces {
-        /// The file.
-        file: PathBuf,
-        /// Whose.
-        mesh: String,
-    },
-    /// The document has no faces.
-    NoFaces {
-        /// The file.
-        file: PathBuf,
-    },
+    /// No GLB can be made of the document.
+    Conversion(ConversionError),
     /// Clusters cannot be made like that.
     Options(CullOptionsError),
     /// The document cannot be read or changed.
@@ -152,19 +136,7 @@ impl fmt::Display for CullError {
                 "{}: {mesh} has a culling table already (MESHWEFT_culling): start from the file that it was made of",
                 file.display()
             ),
-            Self::Lost { file, what } => write!(
-                f,
-                "{}: a GLB is made of the positions and faces, and the file also has {}. Leave it out with \
-                 drop_attributes, or convert the file to .glb first",
-                file.display(),
-                what.join(", ")
-            ),
-            Self::UnreadFaces { file, mesh } => write!(
-                f,
-                "{}: {mesh} has faces that cannot be read, so no GLB can be made of the file",
-                file.display()
-            ),
-            Self::NoFaces { file } => write!(f, "{}: there are no faces", file.display()),
+            Self::Conversion(error) => error.fmt(f),
             Self::Options(error) => error.fmt(f),
             Self::File(error) => error.fmt(f),
         }
@@ -177,5 +149,11 @@ impl std::error::Error for CullError {}
 impl From<FileError> for CullError {
     fn from(error: FileError) -> Self {
         Self::File(error)
+    }
+}
+
+impl From<ConversionError> for CullError {
+    fn from(error: ConversionError) -> Self {
+        Self::Conversion(error)
     }
 }

@@ -1,31 +1,34 @@
 //! Fewer faces for a document, by vertices that leave: none is invented, and nothing tears.
 //!
 //! Read `objects` for what is simplified together, `gathered` for the mesh that is simplified, `reduced` for
-//! what is left of it.
+//! what is left of it, `progressive_object` and `reduced_mesh` for how that is found.
 
 mod gathered;
 mod levels;
 mod objects;
 mod options;
+mod progressive_object;
 mod reduced;
+mod reduced_mesh;
 mod removals;
 mod report;
 mod report_json;
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::counts::{Counts, USUAL_CACHES};
 use super::optimize::{OptimizeError, optimize};
+use super::stage::Stage;
 use crate::files::{Document, FileError, Note, Place};
 use crate::parallel;
 use crate::progress::Progress;
 pub use crate::progressive::{AttributeWeights, StopReason};
 pub use levels::{LEVEL_CACHES, LevelFigures};
-use objects::{Applied, apply, objects};
+pub(super) use objects::{Applied, apply, objects};
 pub use options::{ErrorLimit, SimplifyOptions, SimplifyOptionsError};
+pub(super) use progressive_object::ProgressiveObject;
 use reduced::{Goal, Reduced};
+pub(super) use reduced_mesh::ReducedMesh;
 pub use removals::Removals;
 pub use report::{SimplifiedMesh, SimplifiedObject, SimplifyError, SimplifyReport};
 
@@ -125,7 +128,8 @@ pub fn simplify(
 
     // What is left of them.
     let mut kept = BTreeMap::new();
-    let sound: Vec<&Reduced> = reduced.iter().filter_map(|it| it.as_ref().ok()).collect();
+    let sound = reduced.iter().filter_map(|it| it.as_ref().ok());
+    let sound: Vec<&[ReducedMesh]> = sound.map(|it| &*it.meshes).collect();
     let mut applied = apply(document, &sound, &mut kept).into_iter();
     let mut notes = Vec::new();
     let mut outcomes = Vec::with_capacity(reduced.len());
@@ -186,53 +190,5 @@ fn from_order(error: OptimizeError) -> SimplifyError {
 impl From<FileError> for SimplifyError {
     fn from(error: FileError) -> Self {
         Self::File(error)
-    }
-}
-
-/// A stage of the work, from one fraction of it to another.
-struct Stage<'a> {
-    caller: &'a dyn Progress,
-    start: f64,
-    end: f64,
-    total: usize,
-    done: AtomicUsize,
-    is_stopped: AtomicBool,
-}
-
-impl<'a> Stage<'a> {
-    fn new(caller: &'a dyn Progress, start: f64, end: f64, total: usize) -> Self {
-        Self {
-            caller,
-            start,
-            end,
-            total,
-            done: AtomicUsize::new(0),
-            is_stopped: AtomicBool::new(false),
-        }
-    }
-
-    /// So many more are done.
-    fn add(&self, count: usize) {
-        let done = self.done.fetch_add(count, Ordering::Relaxed) + count;
-        let _ = self.report(done as f64 / self.total.max(1) as f64);
-    }
-
-    fn is_stopped(&self) -> bool {
-        self.is_stopped.load(Ordering::Relaxed)
-    }
-}
-
-impl Progress for Stage<'_> {
-    fn report(&self, fraction: f64) -> ControlFlow<()> {
-        let fraction = self.start + fraction * (self.end - self.start);
-        let go_on = self.caller.report(fraction);
-        if go_on.is_break() {
-            self.is_stopped.store(true, Ordering::Relaxed);
-        }
-        go_on
-    }
-
-    fn time_spent(&self) -> Option<f64> {
-        self.caller.time_spent()
     }
 }

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::reduced::{Reduced, ReducedMesh};
+use super::reduced_mesh::ReducedMesh;
 use crate::files::{Document, Edit, FileError, MeshEntry, SelectedFaces, SelectedVertices};
 use crate::index::index32;
 
 /// The meshes of each object: those of one number, and those that share their vertices. Meshes rise, and
 /// objects by their first one.
-pub(super) fn objects(entries: &[MeshEntry]) -> Vec<Vec<usize>> {
+pub(in crate::operations) fn objects(entries: &[MeshEntry]) -> Vec<Vec<usize>> {
     let mut parents: Vec<usize> = (0..entries.len()).collect();
     let (mut by_object, mut by_group) = (BTreeMap::new(), BTreeMap::new());
     for (mesh, entry) in entries.iter().enumerate() {
@@ -37,7 +37,7 @@ fn root_of(parents: &mut [usize], mut mesh: usize) -> usize {
 }
 
 /// How an object was put into the document.
-pub(super) enum Applied {
+pub(in crate::operations) enum Applied {
     /// Faces and vertices as planned.
     Whole,
     /// Its faces, but all vertices stay: why.
@@ -49,17 +49,17 @@ pub(super) enum Applied {
 /// Selects what is left of objects; how each of them came in.
 ///
 /// All at once. Where that is refused, one after the other, so that one does not keep the others.
-pub(super) fn apply(
+pub(in crate::operations) fn apply(
     document: &mut Document,
-    reduced: &[&Reduced],
+    reduced: &[&[ReducedMesh]],
     vertex_orders: &mut BTreeMap<usize, Vec<u32>>,
 ) -> Vec<Applied> {
-    let all: Vec<&ReducedMesh> = reduced.iter().flat_map(|it| &it.meshes).collect();
+    let all: Vec<&ReducedMesh> = reduced.iter().copied().flatten().collect();
     if all.is_empty() || select(document, &all, true, vertex_orders).is_ok() {
         return reduced.iter().map(|_| Applied::Whole).collect();
     }
-    let mut apply_one = |reduced: &&Reduced| {
-        let meshes: Vec<&ReducedMesh> = reduced.meshes.iter().collect();
+    let mut apply_one = |reduced: &&[ReducedMesh]| {
+        let meshes: Vec<&ReducedMesh> = reduced.iter().collect();
         let text = |error: FileError| error.kind.to_string();
         match select(document, &meshes, true, vertex_orders) {
             Ok(()) => Applied::Whole,

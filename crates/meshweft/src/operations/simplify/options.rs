@@ -68,14 +68,14 @@ pub enum ErrorLimit {
 impl ErrorLimit {
     /// The limit for an object whose bounding box has this diagonal, in units of the positions.
     #[expect(clippy::cast_possible_truncation, reason = "an estimate is compared")]
-    pub(super) fn of_diagonal(self, diagonal: f64) -> f32 {
+    pub(in crate::operations) fn of_diagonal(self, diagonal: f64) -> f32 {
         match self {
             Self::Units(units) => units as f32,
             Self::Diagonal(share) => (share * diagonal) as f32,
         }
     }
 
-    fn number(self) -> f64 {
+    pub(in crate::operations) fn number(self) -> f64 {
         match self {
             Self::Units(number) | Self::Diagonal(number) => number,
         }

@@ -1,0 +1,228 @@
+//! Levels of detail of meshes that are there: index lists at the end of a buffer, meshes that draw them, and
+//! nodes that stand in for others (the extension `MSFT_lod`).
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::json;
+
+use super::GltfFile;
+use super::culling;
+use super::growth::Growth;
+use super::json::Value;
+use super::level_nodes::{LevelNodes, LeveledMesh, level_name, member};
+use super::levels::{EXTRAS, NAME};
+use super::movable::PrimitiveNumber;
+use super::new_meshes::NewMeshes;
+use super::object::Object;
+use crate::files::error::{FileErrorKind, Place, Problem};
+use crate::files::new_levels::{NewLevels, screen_coverage};
+use crate::files::note::Note;
+use crate::index::index32;
+
+/// Extensions of a primitive that are of its own list of faces.
+const OF_FACES: [&str; 2] = [culling::NAME, "CESIUM_primitive_outline"];
+
+impl GltfFile {
+    /// See [`Edit::Levels`](crate::files::Edit::Levels); on an error nothing is changed.
+    pub(super) fn add_levels(&mut self, meshes: &[NewLevels]) -> Result<Vec<Note>, Problem> {
+        let json = super::read_json(&self.container, &self.options.limits)?;
+        let root = Object::new(json.root(), String::new())?;
+        let growth = Growth::new(&root, &self.container, &self.buffers);
+        let mut new = NewMeshes::new(&root, growth.buffer, growth.start)?;
+
+        // Index lists.
+        let mut lists = BTreeMap::new();
+        for levels in meshes {
+            lists.insert(levels.mesh, self.lists(levels, &mut new)?);
+        }
+
+        // A mesh for each level of a mesh, and nodes that draw it.
+        let mut leveled: BTreeMap<usize, LeveledMesh> = BTreeMap::new();
+        for (number, value) in root.array("meshes")?.into_iter().enumerate() {
+            let source = SourceMesh { number, value };
+            if let Some(mesh) = self.levels_of(&source, &lists, &mut new)? {
+                leveled.insert(number, mesh);
+            }
+        }
+        let mut notes = LevelNodes::new(&root, &leveled)?.add_to(&mut new);
+
+        let used = root.array("extensionsUsed")?;
+        if !used
+            .iter()
+            .any(|name| name.text().is_some_and(|it| it == NAME))
+        {
+            new.value(["extensionsUsed", "-"], json!(NAME).to_string());
+        }
+        let (bytes, additions) = new.finish();
+        notes.extend(self.grow(growth, bytes, additions)?);
+        Ok(notes)
+    }
+
+    /// See [`Content::draws_alike`](crate::files::content::Content::draws_alike). Time O(JSON log JSON).
+    pub(super) fn found_alike(&self) -> Vec<bool> {
+        let entries = &self.view.entries;
+        let mut is_alike = vec![true; entries.meshes.len()];
+        // It was read before, and is an object.
+        let Ok(json) = super::read_json(&self.container, &self.options.limits) else {
+            return is_alike;
+        };
+        let meshes: Vec<Vec<Value<'_>>> = json
+            .root()
+            .get("meshes")
+            .into_iter()
+            .flat_map(Value::elements)
+            .map(|mesh| {
+                let primitives = mesh.get("primitives").into_iter();
+                primitives.flat_map(Value::elements).collect()
+            })
+            .collect();
+        let vertices = |number: PrimitiveNumber| {
+            let primitive = meshes[number.mesh as usize][number.primitive as usize];
+            ["attributes", "targets"].map(|name| primitive.get(name).map(Value::raw))
+        };
+        for (&other, &first) in &entries.repeated {
+            if let Some(mesh) = entries.mesh_of(first) {
+                is_alike[mesh] &= vertices(other) == vertices(first);
+            }
+        }
+        is_alike
+    }
+
+    /// Stores the index lists of the levels of a mesh.
+    fn lists<'l>(
+        &self,
+        levels: &'l NewLevels,
+        new: &mut NewMeshes<'_>,
+    ) -> Result<StoredLevels<'l>, Problem> {
+        let entries = &self.view.entries;
+        let first = entries.first_primitives[levels.mesh];
+        let vertex_count = entries.meshes[levels.mesh].mesh.vertex_count();
+        levels
+            .check(vertex_count)
+            .map_err(|kind| kind.at(Place::Json(first.pointer())))?;
+        let mut lists: Vec<Option<usize>> = Vec::with_capacity(levels.levels.len());
+        for level in &levels.levels {
+            let stored = level.faces.as_ref();
+            let stored = stored.map(|faces| new.indices(faces, vertex_count));
+            lists.push(stored.or(lists.last().copied().flatten()));
+        }
+        Ok(StoredLevels { lists, levels })
+    }
+
+    /// Adds the levels of a mesh, if one of its primitives has some.
+    fn levels_of(
+        &self,
+        source: &SourceMesh<'_>,
+        lists: &BTreeMap<usize, StoredLevels<'_>>,
+        new: &mut NewMeshes<'_>,
+    ) -> Result<Option<LeveledMesh>, Problem> {
+        let primitives = source.value.get("primitives");
+        let primitives: Vec<Value<'_>> = primitives.into_iter().flat_map(Value::elements).collect();
+        let of_primitive: Vec<Option<&StoredLevels<'_>>> = (0..primitives.len())
+            .map(|primitive| {
+                let (mesh, primitive) = (index32(source.number), index32(primitive));
+                let number = PrimitiveNumber { mesh, primitive };
+                lists.get(&self.view.entries.mesh_of(number)?)
+            })
+            .collect();
+        let with_levels = of_primitive.iter().flatten();
+        let counts: BTreeSet<usize> = with_levels.clone().map(|it| it.lists.len()).collect();
+        let Some(&count) = counts.first() else {
+            return Ok(None);
+        };
+        if counts.len() > 1 {
+            let text = "its primitives are to have different numbers of levels";
+            let place = Place::Json(format!("/meshes/{}", source.number));
+            return Err(FileErrorKind::unsupported(text).at(place));
+        }
+
+        // One radius and one error for all that is drawn together.
+        let radius = with_levels.clone().map(|it| it.levels.radius);
+        let radius = radius.fold(0.0, f64::max);
+        let mut meshes = Vec::with_capacity(count);
+        let mut coverages = Vec::with_capacity(count + 1);
+        let mut least_coverage = 1.0_f64;
+        for level in 0..count {
+            let errors = with_levels.clone().map(|it| it.levels.levels[level].error);
+            let error = errors.fold(0.0, f64::max);
+            least_coverage = least_coverage.min(screen_coverage(radius, error));
+            coverages.push(least_coverage);
+
+            let texts = primitives.iter().zip(&of_primitive);
+            let texts = texts.map(|(primitive, stored)| {
+                primitive_text(*primitive, stored.and_then(|it| it.lists[level]))
+            });
+            let texts: Vec<String> = texts.collect();
+            let stored = of_primitive.iter();
+            let vertices = stored.map(|it| it.map(|it| it.levels.levels[level].vertices));
+            let vertices: Vec<Option<usize>> = vertices.collect();
+            let said = json!({ "level": level + 1, "error": error, "vertices": vertices });
+            let members = source.members(level + 1, &texts.join(","), &said.to_string());
+            meshes.push(new.mesh(format!("{{{members}}}")));
+        }
+        coverages.push(0.0);
+        Ok(Some(LeveledMesh { meshes, coverages }))
+    }
+}
+
+/// The index lists of the levels of a mesh.
+struct StoredLevels<'l> {
+    /// The accessor of each; `None` for that of the full mesh.
+    lists: Vec<Option<usize>>,
+    levels: &'l NewLevels,
+}
+
+/// A mesh of the file.
+struct SourceMesh<'a> {
+    number: usize,
+    value: Value<'a>,
+}
+
+impl SourceMesh<'_> {
+    /// The text of a level of it, without braces: what is not of its own faces is as in the mesh.
+    fn members(&self, level: usize, primitives: &str, said: &str) -> String {
+        let mut members = Vec::new();
+        members.extend(level_name(self.value, level));
+        members.push(format!(r#""primitives":[{primitives}]"#));
+        let weights = self.value.get("weights");
+        members.extend(weights.map(|weights| format!(r#""weights":{}"#, weights.raw())));
+
+        // The names of morph targets are in its extras.
+        let extras = self.value.get("extras").filter(|extras| extras.is_object());
+        let extras = extras.into_iter().flat_map(Value::members);
+        let extras = extras.filter(|(name, _)| name != EXTRAS);
+        let mut extras: Vec<String> = extras
+            .map(|(name, value)| member(&name, value.raw()))
+            .collect();
+        extras.push(member(EXTRAS, said));
+        members.push(format!(r#""extras":{{{}}}"#, extras.join(",")));
+        members.join(",")
+    }
+}
+
+/// The text of a primitive with other faces, if these are given, and with the same vertices.
+fn primitive_text(primitive: Value<'_>, indices: Option<usize>) -> String {
+    let Some(indices) = indices else {
+        return primitive.raw().to_owned();
+    };
+    let mut members = Vec::new();
+    for (name, value) in primitive.members() {
+        match &*name {
+            "indices" => {}
+            "extensions" => {
+                let kept = value
+                    .members()
+                    .filter(|(name, _)| !OF_FACES.contains(&&**name));
+                let kept: Vec<String> = kept
+                    .map(|(name, value)| member(&name, value.raw()))
+                    .collect();
+                if !kept.is_empty() {
+                    members.push(format!(r#""extensions":{{{}}}"#, kept.join(",")));
+                }
+            }
+            _ => members.push(member(&name, value.raw())),
+        }
+    }
+    members.push(format!(r#""indices":{indices}"#));
+    format!("{{{}}}", members.join(","))
+}

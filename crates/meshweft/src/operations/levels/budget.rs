@@ -1,0 +1,144 @@
+//! How coarse each object is at each level, so that all have one error budget.
+
+use super::options::LevelGoals;
+use crate::geometry::double::rounded_up;
+use crate::operations::simplify::ErrorLimit;
+use crate::progressive::ProgressiveMesh;
+
+/// An object that gets coarser.
+pub(super) struct Budgeted<'a> {
+    pub(super) progressive: &'a ProgressiveMesh,
+    /// How many units of a scene one of its own is.
+    pub(super) scale: f64,
+    /// The diagonal of its bounding box, in its own units.
+    pub(super) diagonal: f64,
+}
+
+impl Budgeted<'_> {
+    /// The coarsest level within an error of the scene, that has faces.
+    fn level_within(&self, error: f32) -> usize {
+        #[expect(clippy::cast_possible_truncation, reason = "an estimate is compared")]
+        let own = (f64::from(error) / self.scale) as f32;
+        self.with_faces(self.progressive.level_of_error(own))
+    }
+
+    /// This level, or the next finer one that has faces.
+    fn with_faces(&self, mut level: usize) -> usize {
+        while level > 0 && self.progressive.face_count(level) == 0 {
+            level -= 1;
+        }
+        level
+    }
+
+    /// The error of the last removal of a vertex, in units of the scene. Parts that leave as a whole may be larger.
+    fn largest_error(&self) -> f32 {
+        let progressive = self.progressive;
+        let is_of_vertex = |level: &usize| !progressive.collapse(*level).is_of_part();
+        let last = (0..progressive.last_level()).rev().find(is_of_vertex);
+        let own = last.map_or(0.0, |last| progressive.error(last + 1));
+        rounded_up(f64::from(own) * self.scale)
+    }
+
+    fn faces(&self, level: usize) -> usize {
+        self.progressive.face_count(level)
+    }
+
+    pub(super) fn most_faces(&self) -> usize {
+        self.faces(0)
+    }
+
+    /// How many faces are left within an error of the scene.
+    pub(super) fn faces_within(&self, error: f32) -> usize {
+        self.faces(self.level_within(error))
+    }
+}
+
+/// The error of the last vertex that leaves, in units of the scene: a part may leave as a whole where it is smaller.
+pub(super) fn largest_error(objects: &[Budgeted<'_>]) -> f32 {
+    let errors = objects.iter().map(Budgeted::largest_error);
+    errors.fold(0.0, f32::max)
+}
+
+/// The level of each object, for each goal.
+///
+/// # Complexity
+/// Time O(goals · objects · log removals).
+pub(super) fn levels_of_objects(objects: &[Budgeted<'_>], goals: &LevelGoals) -> Vec<Vec<usize>> {
+    let total = objects.iter().map(Budgeted::most_faces).sum();
+    match goals {
+        LevelGoals::Faces(_) | LevelGoals::Ratios(_) => goals_in_faces(goals, total)
+            .into_iter()
+            .map(|most| within_faces(objects, most))
+            .collect(),
+        LevelGoals::Errors(errors) => {
+            let diagonals = objects.iter().map(|it| it.diagonal * it.scale);
+            let largest = diagonals.fold(0.0, f64::max);
+            let within = |error: &ErrorLimit| {
+                let error = error.of_diagonal(largest);
+                objects.iter().map(|it| it.level_within(error)).collect()
+            };
+            errors.iter().map(within).collect()
+        }
+    }
+}
+
+/// How many faces each level may have; none where errors are the goals.
+pub(super) fn goals_in_faces(goals: &LevelGoals, total: usize) -> Vec<usize> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "at most the number of faces"
+    )]
+    #[expect(clippy::cast_sign_loss, reason = "a ratio is not negative")]
+    let of_ratio = |&ratio: &f64| (ratio * total as f64) as usize;
+    match goals {
+        LevelGoals::Faces(counts) => counts.clone(),
+        LevelGoals::Ratios(ratios) => ratios.iter().map(of_ratio).collect(),
+        LevelGoals::Errors(_) => Vec::new(),
+    }
+}
+
+/// The levels of least error that have at most so many faces together, or the coarsest ones.
+fn within_faces(objects: &[Budgeted<'_>], most: usize) -> Vec<usize> {
+    let levels = |error: u32| -> Vec<usize> {
+        let error = f32::from_bits(error);
+        objects.iter().map(|it| it.level_within(error)).collect()
+    };
+    let faces = |levels: &[usize]| -> usize {
+        let all = objects.iter().zip(levels);
+        all.map(|(object, &level)| object.faces(level)).sum()
+    };
+
+    // Errors are not negative: as bits they rise as they do as numbers.
+    let (mut above, mut within) = (None, largest_error(objects).to_bits());
+    let mut next = 0;
+    loop {
+        match faces(&levels(next)) <= most {
+            true => within = next,
+            false => above = Some(next),
+        }
+        let low = above.map_or(0, |above| above + 1);
+        if low >= within {
+            break;
+        }
+        next = low + (within - low) / 2;
+    }
+    let coarse = levels(within);
+    let Some(above) = above else {
+        return coarse;
+    };
+
+    // All that have removals of the last error need not take all of them.
+    let mut chosen = levels(above);
+    let mut too_many = faces(&chosen).saturating_sub(most);
+    for ((object, level), &coarsest) in objects.iter().zip(&mut chosen).zip(&coarse) {
+        if too_many == 0 {
+            break;
+        }
+        let before = object.faces(*level);
+        let goal = before.saturating_sub(too_many);
+        let enough = object.progressive.level_of_faces(goal);
+        *level = object.with_faces(enough.min(coarsest));
+        too_many = too_many.saturating_sub(before - object.faces(*level));
+    }
+    chosen
+}

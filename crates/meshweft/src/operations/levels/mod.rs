@@ -1,0 +1,19 @@
+//! Levels of detail in one ordinary GLB: vertices in bands, an index list for each level, nodes that stand in.
+//!
+//! All objects of a file have one error budget (`budget`). The vertices of a level come before all others in every
+//! vertex view, so a level is drawn from the beginning of the view. Read `build` first, then `coarser` for what becomes of
+//! one object.
+
+mod apart;
+mod budget;
+mod build;
+mod coarser;
+mod lists;
+mod made;
+mod options;
+mod report;
+
+pub use apart::levels_apart;
+pub use build::levels;
+pub use options::{LevelGoals, LevelsError, LevelsOptions, LevelsOptionsError};
+pub use report::{FileLevel, LeveledObject, LevelsReport};
