@@ -52,7 +52,7 @@ fn folder(name: &str) -> Folder {
 
 #[test]
 fn inspect_lists_levels_below_their_mesh() {
-    let folder = folder("inspect-levels");
+    let folder = folder("inspect-with-levels");
     let run = folder.run(&["inspect", "levels.gltf", "--cache", "fifo:12"]);
     let expected = "levels.gltf\n\
                     mesh                  faces  vertices  used  ACMR fifo:12   ATVR\n\
@@ -66,7 +66,7 @@ fn inspect_lists_levels_below_their_mesh() {
 
 #[test]
 fn compare_says_that_a_file_only_has_levels_more() {
-    let folder = folder("compare-levels");
+    let folder = folder("compare-with-levels");
     let run = folder.run(&["compare", "plain.gltf", "levels.gltf"]);
     assert_eq!(run.code(), 0, "{}", run.err());
     let expected = "b: levels.gltf\nthe same triangles\nlevels of detail: 0 in a, 1 in b\n  level 1: only in b, faces: 1\n";
@@ -78,7 +78,7 @@ fn compare_says_that_a_file_only_has_levels_more() {
 
 #[test]
 fn what_has_levels_is_not_simplified() {
-    let folder = folder("simplify-levels");
+    let folder = folder("simplify-with-levels");
     let run = folder.run(&[
         "simplify",
         "levels.gltf",
