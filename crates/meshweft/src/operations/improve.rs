@@ -1,21 +1,26 @@
 //! Better orders for the meshes of a document, found before the document is changed.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::algorithm::Algorithm;
 use super::counts::Counts;
 use super::improved::{FaceChange, Improved};
 use super::options::Options;
 use super::shared_progress::SharedProgress;
-use super::vertex_groups::{Judgement, LargeGroups, better_order_of_group, movable_groups};
+use super::vertex_groups::{
+    Judgement, LargeGroups, better_order_of_group, has_large_bands, movable_groups,
+};
 use crate::cache::CacheModel;
 use crate::faces::Faces;
 use crate::files::{Document, Edit, FileError, MeshEntry};
-use crate::order::Target;
+use crate::order::{Mode, Target};
 use crate::parallel;
 use crate::permutation::VertexOrder;
-use crate::progress::Progress;
+use crate::progress::{Budget, PartOfWork, Progress};
+
+/// How often large bands are ordered again at most. Each time misses less than the one before, and once is mostly enough.
+const MOST_ROUNDS: usize = 16;
 
 /// What is to be done to each mesh and each vertex group.
 pub(super) struct Improvement {
@@ -33,6 +38,8 @@ pub(super) struct VertexChange {
     /// The meshes of the group.
     members: Vec<usize>,
     pub(super) order: VertexOrder,
+    /// Whether it was found last, so that what follows from it is not known.
+    is_unsettled: bool,
 }
 
 /// Orders faces and vertices. `before` has the counts of each mesh under `models`.
@@ -43,15 +50,28 @@ pub(super) fn improve(
     before: &[Counts],
     progress: &dyn Progress,
 ) -> Improvement {
+    improve_some(entries, |_| true, options, models, before, progress)
+}
+
+/// The same for the vertex groups that are chosen. All others stay as they are.
+fn improve_some(
+    entries: &[MeshEntry],
+    is_chosen: impl Fn(usize) -> bool + Sync,
+    options: &Options,
+    models: &[CacheModel],
+    before: &[Counts],
+    progress: &dyn Progress,
+) -> Improvement {
     let algorithm = Algorithm::new(options);
     let face_count = entries.iter().map(|entry| entry.mesh.face_count()).sum();
     let shared = SharedProgress::new(progress, face_count);
 
     // Large groups of vertices are put in blocks or bands first: faces are then ordered in these numbers.
-    let groups = match options.keep_vertex_order {
+    let mut groups = match options.keep_vertex_order {
         true => BTreeMap::new(),
         false => movable_groups(entries),
     };
+    groups.retain(|&group, _| is_chosen(group));
     let large_groups = LargeGroups::new(entries, &groups);
 
     // Faces: each mesh has its share of a budget, by where its faces stand among all.
@@ -64,7 +84,7 @@ pub(super) fn improve(
     });
     let job = |(i, entry, before, first)| {
         let renumbered = large_groups.entry(i);
-        MeshJob {
+        let job = MeshJob {
             entry: renumbered.unwrap_or(entry),
             is_renumbered: renumbered.is_some(),
             before,
@@ -72,8 +92,11 @@ pub(super) fn improve(
             face_count,
             algorithm: &algorithm,
             models,
+        };
+        match is_chosen(job.entry.vertex_group) {
+            true => job.run(&shared),
+            false => job.unchanged(None),
         }
-        .run(&shared)
     };
     let improved: Vec<(FaceChange, Improved<'_>)> = match shared.is_timed() {
         // One after the other: each has its share of the time.
@@ -97,7 +120,12 @@ pub(super) fn improve(
             .settle(numbered, &mut meshes, &mut faces),
         };
         if let Some(order) = settled {
-            vertices.insert(group, VertexChange { members, order });
+            let change = VertexChange {
+                members,
+                order,
+                is_unsettled: true,
+            };
+            vertices.insert(group, change);
         }
     }
 
@@ -196,9 +224,72 @@ impl Improvement {
                 document.edit(Edit::order(i, &change.order, None))?;
             }
         }
-        for VertexChange { members, order } in self.vertices.values() {
+        for VertexChange { members, order, .. } in self.vertices.values() {
             document.edit(Edit::order(members[0], None, order))?;
         }
         Ok(())
+    }
+
+    /// Orders again what a run on the result might order again, until that finds nothing; `document` has been changed as this says, and is
+    /// changed further.
+    ///
+    /// In bands of more than 65,536 vertices faces were ordered in other numbers than these have now, which caches that look at them may
+    /// tell apart. What is not checked elsewhere is not checked here.
+    pub(super) fn settle(
+        mut self,
+        document: &mut Document,
+        options: &Options,
+        models: &[CacheModel],
+        progress: &dyn Progress,
+    ) -> Result<Self, FileError> {
+        let is_limited = progress.time_spent().is_some() || options.budget != Budget::Unlimited;
+        let is_faithful = options
+            .greedy
+            .is_some_and(|greedy| greedy.mode == Mode::Faithful);
+        if is_limited || is_faithful || options.allow_worse {
+            return Ok(self);
+        }
+        for _ in 0..MOST_ROUNDS {
+            let entries = document.meshes();
+            let moved = self.vertices.iter();
+            let moved = moved.filter(|(_, change)| {
+                change.is_unsettled && has_large_bands(&change.members, entries)
+            });
+            let groups: BTreeSet<usize> = moved.map(|(&group, _)| group).collect();
+            if groups.is_empty() || self.is_stopped {
+                break;
+            }
+            let is_chosen = |group: usize| groups.contains(&group);
+            let rest = PartOfWork::new(progress, 1.0, 1.0);
+            let next = improve_some(entries, is_chosen, options, models, &self.after, &rest);
+            next.apply(document)?;
+            self = self.then(next);
+        }
+        Ok(self)
+    }
+
+    /// One that has the effect of this one, followed by `next`.
+    fn then(mut self, next: Self) -> Self {
+        for (change, next) in self.faces.iter_mut().zip(next.faces) {
+            if !next.order.is_identity() {
+                *change = FaceChange {
+                    order: change.order.then(&next.order),
+                    ..next
+                };
+            }
+        }
+        for change in self.vertices.values_mut() {
+            change.is_unsettled = false;
+        }
+        for (group, next) in next.vertices {
+            let order = match self.vertices.get(&group) {
+                Some(change) => change.order.then(&next.order),
+                None => next.order.clone(),
+            };
+            self.vertices.insert(group, VertexChange { order, ..next });
+        }
+        self.after = next.after;
+        self.is_stopped |= next.is_stopped;
+        self
     }
 }

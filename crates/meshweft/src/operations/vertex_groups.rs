@@ -32,6 +32,13 @@ pub(super) fn movable_groups(entries: &[MeshEntry]) -> BTreeMap<usize, Vec<usize
     groups
 }
 
+/// Whether a group has more vertices than a block, and members of several levels of detail.
+pub(super) fn has_large_bands(members: &[usize], entries: &[MeshEntry]) -> bool {
+    let number = |&i: &usize| entries[i].level.map_or(0, |level| level.number);
+    let first = number(&members[0]);
+    entries[members[0]].mesh.vertex_count() > BLOCK && members.iter().any(|i| number(i) != first)
+}
+
 /// The vertices of a group in the order of their first use by all its members, those of levels of detail in bands, if that is worth it;
 /// the members then have the new numbers.
 pub(super) fn better_order_of_group(
