@@ -99,6 +99,12 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
         let text = "levels of detail can be added to .gltf and .glb files only";
         Err(FileErrorKind::unsupported(text).at(Place::File))
     }
+    /// Does [`Edit::StreamLayout`](super::Edit::StreamLayout), or changes nothing; the notes of the document as it then
+    /// is, or `None` if it was laid out like that.
+    fn stream_layout(&mut self) -> Result<Option<Vec<Note>>, Problem> {
+        let text = "only buffers of .gltf and .glb files can be laid out for streaming";
+        Err(FileErrorKind::unsupported(text).at(Place::File))
+    }
     /// The files beside the main one.
     fn beside(&self) -> Vec<Beside<'_>> {
         Vec::new()

@@ -475,6 +475,15 @@ impl Document {
                     notes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
                 self.is_edited = true;
             }
+            Edit::StreamLayout => {
+                let notes = self.content.stream_layout();
+                let notes =
+                    notes.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
+                if let Some(notes) = notes {
+                    self.notes = notes;
+                    self.is_edited = true;
+                }
+            }
             Edit::Append { meshes, values } => {
                 let notes = self.content.append(meshes, values);
                 self.notes =

@@ -82,6 +82,27 @@ pub enum Edit<'a> {
         /// The levels of each mesh.
         meshes: &'a [NewLevels],
     },
+    /// The buffers of a glTF or GLB are laid out for a client that reads them from the start and shows what it has:
+    /// geometry first, coarse to fine, images last. Whole buffer views change places; what is in them stays.
+    ///
+    /// A buffer then has, by the first thing that reads each of its views:
+    /// 1. for the first picture, in which each mesh is as coarse as it gets: the index lists of meshes with levels of
+    ///    detail, all of meshes without, the matrices of joints and instances, and the vertices of meshes with levels (the
+    ///    first picture needs the beginning of each);
+    /// 2. for each finer level the index lists that it adds, and vertices if it has vertices of its own; level 0 last;
+    /// 3. what other known things read (animations, culling tables), what nothing known reads, and images.
+    ///
+    /// Where nothing else decides, views keep their order. Views that share bytes stay as they are to each other.
+    /// Each keeps its place modulo 4, or modulo 8 if it was a multiple of 8. Bytes that are in no view go to the end,
+    /// but for up to seven zeros between two views. In the JSON, the `byteOffset` of views is another number; a view without
+    /// one gets one unless it stands at 0. A buffer keeps its `byteLength`, unless what fills up between views does not fit.
+    ///
+    /// Nothing is changed if each buffer is laid out like that; so nothing is, the second time.
+    ///
+    /// It is an error ([`FileErrorKind::Unsupported`](super::FileErrorKind)) if a buffer that would change
+    /// may not (other files read it, it is beside a GLB, or is named twice), or if anything else than buffer views may name bytes of
+    /// it, as an extension of views that is not known.
+    StreamLayout,
 }
 
 impl<'a> Edit<'a> {

@@ -16,12 +16,14 @@ mod data_folder;
 mod errors;
 mod in_order;
 mod lengths;
+mod levelled;
 mod links;
 mod moves;
 mod neighbours;
 mod nothing_lost;
 mod output;
 mod reader;
+mod stream_layout;
 mod strips;
 mod surroundings;
 

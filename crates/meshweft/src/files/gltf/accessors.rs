@@ -286,8 +286,8 @@ impl<'a> Accessors<'a> {
         Ok(())
     }
 
-    /// The storage, start and length of a buffer view.
-    fn view_bytes(&self, view: &Object) -> Result<(usize, usize, usize), Problem> {
+    /// The storage, start and length of a buffer view, or of what a compressed one is made from.
+    pub(super) fn view_bytes(&self, view: &Object) -> Result<(usize, usize, usize), Problem> {
         // The buffer has all bytes that it promises.
         let number = view.required_number("buffer")?;
         let storage = self.buffers.storage_of(number, view.pointer().to_owned())?;

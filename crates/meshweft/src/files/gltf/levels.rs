@@ -112,7 +112,7 @@ fn mesh_levels(nodes: &[Value<'_>], meshes: &[Value<'_>]) -> BTreeMap<usize, Sta
 }
 
 /// Which nodes are drawn in the place of others: those that are named as levels, and all below them.
-fn replacing(nodes: &[Value<'_>]) -> Vec<bool> {
+pub(super) fn replacing(nodes: &[Value<'_>]) -> Vec<bool> {
     let mut replaces = vec![false; nodes.len()];
     let mut open: Vec<usize> = nodes.iter().flat_map(|&node| ids(node)).flatten().collect();
     while let Some(number) = open.pop() {
@@ -128,7 +128,7 @@ fn replacing(nodes: &[Value<'_>]) -> Vec<bool> {
 }
 
 /// The nodes that a node names as its levels, from fine to coarse; `None` for what is no number.
-fn ids(node: Value<'_>) -> impl Iterator<Item = Option<usize>> {
+pub(super) fn ids(node: Value<'_>) -> impl Iterator<Item = Option<usize>> {
     let extension = node.get("extensions").and_then(|all| all.get(NAME));
     let ids = extension.and_then(|extension| extension.get("ids"));
     ids.into_iter().flat_map(Value::elements).map(Value::whole)

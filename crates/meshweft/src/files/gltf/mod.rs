@@ -24,6 +24,9 @@
 //! What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the bytes and
 //! values, [`growth`] has the buffer for them, [`scene`] finds where they are drawn,
 //! [`new_levels`] adds levels of detail, [`level_nodes`] the nodes that draw these, [`additions`] puts values into the text.
+//! What is wanted first comes first after [`stream_layout`]: [`stream_order`] says when each buffer view is wanted, by what
+//! [`primitive_reads`] finds and [`drawn_levels`] draws; [`stream_pieces`] moves them, unless something that is not known
+//! names their bytes ([`unknown_names`]).
 //!
 //! | word | what it is |
 //! |---|---|
@@ -55,6 +58,11 @@
 //! | `Additions` | new values, each with the way to its place |
 //! | `Leaving` | storages from which records leave, in the making |
 //! | `ByteMap` | the bytes that leave, and where the others then stand |
+//! | `DrawnLevels` | at which levels of detail each mesh is drawn |
+//! | `PrimitiveReads` | what is read to draw a primitive |
+//! | `StreamClass` | when a buffer view is wanted, and for which part (`DrawnPart`) of a picture |
+//! | `MovingPiece` | buffer views that share bytes, and so move together |
+//! | `LaidOut` | a buffer with its pieces in another order |
 
 mod accessors;
 mod additions;
@@ -67,6 +75,7 @@ mod byte_users;
 mod companions;
 mod container;
 mod culling;
+mod drawn_levels;
 mod drawn_scales;
 mod elements;
 mod entries;
@@ -92,15 +101,20 @@ mod obstacles;
 mod output;
 mod patch;
 mod placed_tables;
+mod primitive_reads;
 mod primitives;
 mod scene;
 mod select;
 mod sides;
 mod sparse;
 mod stated_bounds;
+mod stream_layout;
+mod stream_order;
+mod stream_pieces;
 mod strided_records;
 mod strips;
 mod tables;
+mod unknown_names;
 mod unlisted;
 mod uri;
 
@@ -476,6 +490,10 @@ impl Content for GltfFile {
 
     fn add_levels(&mut self, meshes: &[NewLevels]) -> Result<Vec<Note>, Problem> {
         GltfFile::add_levels(self, meshes)
+    }
+
+    fn stream_layout(&mut self) -> Result<Option<Vec<Note>>, Problem> {
+        GltfFile::stream_layout(self)
     }
 
     fn beside(&self) -> Vec<Beside<'_>> {

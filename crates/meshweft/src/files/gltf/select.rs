@@ -38,7 +38,7 @@ struct Left {
 }
 
 /// The bytes that storages had, and whether these had changed.
-type OldBytes = Vec<(usize, Vec<u8>, bool)>;
+pub(super) type OldBytes = Vec<(usize, Vec<u8>, bool)>;
 
 impl GltfFile {
     /// See [`Edit::Select`](crate::files::Edit::Select); on an error nothing is changed.
@@ -57,10 +57,7 @@ impl GltfFile {
         let (container, view, notes) = match checked {
             Ok(checked) => checked,
             Err(problem) => {
-                for (storage, bytes, was_changed) in old {
-                    let storage = &mut self.buffers.storages[storage];
-                    (storage.bytes, storage.is_changed) = (bytes, was_changed);
-                }
+                self.take_back(old);
                 return Err(problem);
             }
         };
@@ -263,7 +260,7 @@ impl GltfFile {
     }
 
     /// Gives storages other bytes; those that they had.
-    fn exchange(&mut self, storages: BTreeMap<usize, Vec<u8>>) -> OldBytes {
+    pub(super) fn exchange(&mut self, storages: BTreeMap<usize, Vec<u8>>) -> OldBytes {
         let exchanged = storages.into_iter().map(|(number, bytes)| {
             let storage = &mut self.buffers.storages[number];
             let is_same = storage.bytes == bytes;
@@ -275,6 +272,14 @@ impl GltfFile {
             (number, old.0, old.1)
         });
         exchanged.collect()
+    }
+
+    /// Undoes [`exchange`](Self::exchange).
+    pub(super) fn take_back(&mut self, old: OldBytes) {
+        for (storage, bytes, was_changed) in old {
+            let storage = &mut self.buffers.storages[storage];
+            (storage.bytes, storage.is_changed) = (bytes, was_changed);
+        }
     }
 
     /// The file with this text, unless it is the same, with the smallest and largest values of these
