@@ -6,6 +6,7 @@ use std::{fmt, io};
 use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
+use super::level_bytes::LevelBytes;
 use super::new_levels::NewLevels;
 use super::new_mesh::NewMesh;
 use super::note::Note;
@@ -97,6 +98,11 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     /// Does [`Edit::Levels`](super::Edit::Levels), or changes nothing; the notes of the document as it then is.
     fn add_levels(&mut self, _meshes: &[NewLevels]) -> Result<Vec<Note>, Problem> {
         let text = "levels of detail can be added to .gltf and .glb files only";
+        Err(FileErrorKind::unsupported(text).at(Place::File))
+    }
+    /// Where in the files of the document each level of detail has what it needs.
+    fn level_bytes(&self) -> Result<LevelBytes, Problem> {
+        let text = "only .gltf and .glb files have byte ranges for levels of detail";
         Err(FileErrorKind::unsupported(text).at(Place::File))
     }
     /// Does [`Edit::StreamLayout`](super::Edit::StreamLayout), or changes nothing; the notes of the document as it then

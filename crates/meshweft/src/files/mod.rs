@@ -36,6 +36,7 @@ mod format;
 mod gltf;
 #[cfg(feature = "height-maps")]
 pub mod height_map;
+mod level_bytes;
 mod links;
 mod locks;
 mod new_levels;
@@ -73,6 +74,7 @@ pub use entry::{MeshEntry, MeshLevel};
 pub use error::{FileError, FileErrorKind, Place};
 pub use format::Format;
 pub use gltf::{external_buffers, shared_buffers};
+pub(crate) use level_bytes::{FileBytes, LevelBytes};
 pub use new_levels::{NewLevel, NewLevels, screen_coverage};
 pub use new_mesh::{NewMesh, NewVertices};
 pub use note::Note;

@@ -5,8 +5,8 @@
 //! document and keeps every other byte, `simplify` takes faces away from it, `levels` adds levels of detail to it, `inspect` counts it as it is, and
 //! `compare` tells whether two documents hold the same triangles, `compress` makes an archive of the meshes, which `decompress` reads, `cull_build` adds tables that say which faces need not be
 //! drawn, and `cull_stats` counts what these leave out, `lod_build` makes a file of a mesh with every level of detail,
-//! `lod_extract` takes one mesh from it, `lod_walk` walks around one whose detail follows the eye, and `lod_verify` measures how far
-//! that is off; their reports are values that know their JSON. With feature `height-maps`, `terrain_build`, `terrain_extract`, `terrain_walk` and
+//! `lod_extract` takes one mesh from it, `lod_walk` walks around one whose detail follows the eye, `lod_verify` measures how far
+//! that is off, and `level_ranges` says which bytes of a file with levels of detail each of them needs; their reports are values that know their JSON. With feature `height-maps`, `terrain_build`, `terrain_extract`, `terrain_walk` and
 //! `terrain_verify` do the same for terrain.
 //! [`Method`] has every order by name, [`SequenceUpdate`] every way to keep one up as a mesh gets coarser,
 //! along a history such as [`collapse_history`] makes. [`StripedMesh`] and [`FacePlanes`] count what of a mesh is drawn, and
@@ -96,8 +96,9 @@ pub use inspect::{InspectReport, InspectedLevel, InspectedMesh, inspect};
 pub use json::SCHEMA;
 #[cfg(feature = "files")]
 pub use levels::{
-    FileLevel, LevelGoals, LeveledObject, LevelsError, LevelsOptions, LevelsOptionsError,
-    LevelsReport, levels, levels_apart,
+    FileLevel, FileRange, LevelGoals, LevelRanges, LevelRangesOptions, LevelRangesReport,
+    LeveledObject, LevelsError, LevelsOptions, LevelsOptionsError, LevelsReport, level_ranges,
+    levels, levels_apart,
 };
 #[cfg(feature = "files")]
 pub use lod::{

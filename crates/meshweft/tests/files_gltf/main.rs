@@ -16,6 +16,7 @@ mod data_folder;
 mod errors;
 mod in_order;
 mod lengths;
+mod level_ranges;
 mod levelled;
 mod links;
 mod moves;

@@ -69,7 +69,8 @@ impl Reader {
         drawn
     }
 
-    fn triangles_of(&self, primitive: &Value) -> Option<Vec<Triangle>> {
+    /// Those of one primitive.
+    pub(crate) fn triangles_of(&self, primitive: &Value) -> Option<Vec<Triangle>> {
         let mut columns = Vec::new();
         let mut sets = vec![&primitive["attributes"]];
         sets.extend(primitive["targets"].as_array().into_iter().flatten());

@@ -326,7 +326,7 @@ impl Building {
 }
 
 /// How many bytes the number of a sparse element has.
-fn index_size(indices: Value<'_>) -> usize {
+pub(super) fn index_size(indices: Value<'_>) -> usize {
     match indices.get("componentType").and_then(Value::whole) {
         Some(UNSIGNED_BYTE) => 1,
         Some(UNSIGNED_SHORT) => 2,

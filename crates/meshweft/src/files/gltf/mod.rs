@@ -26,7 +26,7 @@
 //! [`new_levels`] adds levels of detail, [`level_nodes`] the nodes that draw these, [`additions`] puts values into the text.
 //! What is wanted first comes first after [`stream_layout`]: [`stream_order`] says when each buffer view is wanted, by what
 //! [`primitive_reads`] finds and [`drawn_levels`] draws; [`stream_pieces`] moves them, unless something that is not known
-//! names their bytes ([`unknown_names`]).
+//! names their bytes ([`unknown_names`]). [`level_needs`] says where each level of detail then has its bytes.
 //!
 //! | word | what it is |
 //! |---|---|
@@ -84,6 +84,7 @@ mod groups;
 mod growth;
 mod json;
 mod leaving;
+mod level_needs;
 mod level_nodes;
 mod levels;
 #[cfg(test)]
@@ -129,6 +130,7 @@ use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
+use super::level_bytes::LevelBytes;
 use super::new_levels::NewLevels;
 use super::new_mesh::NewMesh;
 use super::note::Note;
@@ -490,6 +492,10 @@ impl Content for GltfFile {
 
     fn add_levels(&mut self, meshes: &[NewLevels]) -> Result<Vec<Note>, Problem> {
         GltfFile::add_levels(self, meshes)
+    }
+
+    fn level_bytes(&self) -> Result<LevelBytes, Problem> {
+        GltfFile::level_bytes(self)
     }
 
     fn stream_layout(&mut self) -> Result<Option<Vec<Note>>, Problem> {

@@ -6,8 +6,9 @@ use super::object::Object;
 use crate::files::error::Problem;
 
 /// What a primitive reads, by the numbers of accessors and buffer views.
-pub(super) struct PrimitiveReads {
+pub(super) struct PrimitiveReads<'a> {
     pub(super) number: PrimitiveNumber,
+    pub(super) primitive: Value<'a>,
     /// Lists of vertex numbers: what it draws, and its outline.
     pub(super) lists: Vec<usize>,
     /// Attributes and morph targets.
@@ -17,9 +18,9 @@ pub(super) struct PrimitiveReads {
 }
 
 /// Calls `visit` with what each primitive reads, in the order of the file.
-pub(super) fn each_primitive(
-    root: &Object,
-    mut visit: impl FnMut(PrimitiveReads),
+pub(super) fn each_primitive<'a>(
+    root: &Object<'a>,
+    mut visit: impl FnMut(PrimitiveReads<'a>),
 ) -> Result<(), Problem> {
     // JSON is shorter than 4 GiB, so all numbers fit.
     for (mesh, value) in (0_u32..).zip(root.array("meshes")?) {
@@ -32,7 +33,7 @@ pub(super) fn each_primitive(
     Ok(())
 }
 
-fn reads_of(number: PrimitiveNumber, primitive: Value<'_>) -> PrimitiveReads {
+fn reads_of(number: PrimitiveNumber, primitive: Value<'_>) -> PrimitiveReads<'_> {
     let of_extension = |name: &str, member: &str| {
         let extension = primitive.get("extensions")?.get(name);
         extension?.get(member)?.whole()
@@ -46,6 +47,7 @@ fn reads_of(number: PrimitiveNumber, primitive: Value<'_>) -> PrimitiveReads {
     let vertices = sets.flat_map(Value::members);
     PrimitiveReads {
         number,
+        primitive,
         lists: drawn.into_iter().chain(outline).collect(),
         vertices: vertices.filter_map(|(_, value)| value.whole()).collect(),
         compressed: of_extension("KHR_draco_mesh_compression", "bufferView"),

@@ -11,9 +11,11 @@ mod coarser;
 mod lists;
 mod made;
 mod options;
+mod ranges;
 mod report;
 
 pub use apart::levels_apart;
 pub use build::levels;
 pub use options::{LevelGoals, LevelsError, LevelsOptions, LevelsOptionsError};
+pub use ranges::{FileRange, LevelRanges, LevelRangesOptions, LevelRangesReport, level_ranges};
 pub use report::{FileLevel, LeveledObject, LevelsReport};
