@@ -83,6 +83,8 @@ enum Verb {
     ///   meshweft levels scene.glb -o levels.glb
     ///   meshweft levels scene.glb --ratios 0.5,0.2,0.05 --effort best -o levels.glb
     ///   meshweft levels scan.ply --errors .1%,.5%,2% -o scan.glb
+    ///   meshweft levels scene.glb --layout stream -o streamed.glb
+    ///   meshweft levels --ranges streamed.glb --json
     #[command(verbatim_doc_comment)]
     Levels(Levels),
     /// Store the positions and faces of a file in few bytes, in the order to be drawn

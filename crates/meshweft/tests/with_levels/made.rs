@@ -134,10 +134,12 @@ impl Sheet {
         let mut nodes: Vec<Value> = (0..=self.level_count)
             .map(|mesh| json!({"mesh": mesh}))
             .collect();
-        nodes[0]["extensions"] = json!({"MSFT_lod": {"ids": ids}});
-        let others = json!({
-            "extensionsUsed": ["MSFT_lod"], "nodes": nodes, "scenes": [{"nodes": [0]}], "scene": 0,
-        });
+        let mut others = json!({ "scenes": [{"nodes": [0]}], "scene": 0 });
+        if !ids.is_empty() {
+            nodes[0]["extensions"] = json!({"MSFT_lod": {"ids": ids}});
+            others["extensionsUsed"] = json!(["MSFT_lod"]);
+        }
+        others["nodes"] = nodes.into();
         let json = builder.json(&meshes.into(), &others);
         glb(&json.to_string(), Some(&builder.binary))
     }

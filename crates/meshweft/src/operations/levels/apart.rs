@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use super::coarser::put_in_order;
 use super::made::{MadeLevels, MadeObject};
 use super::options::{LevelsError, LevelsOptions};
 use super::report::{LevelsParts, LevelsReport, counts_of};
 use crate::files::{Document, FileError, Note, Place};
 use crate::operations::file_report::FileReport;
-use crate::operations::optimize::{OptimizeError, optimize};
-use crate::operations::options::Options;
 use crate::operations::simplify::{Applied, ReducedMesh, apply};
 use crate::operations::stage::Stage;
 use crate::progress::Progress;
@@ -16,7 +15,7 @@ use crate::progress::Progress;
 /// The levels that [`levels`](super::levels) makes, each as a document of its own with the vertices that it needs, fine to
 /// coarse: of every format that faces can be left out of. `read_again` gives the document once more for each.
 ///
-/// Each is ordered as by [`optimize`]. `document` stays as it is.
+/// Each is ordered as by [`optimize`](crate::operations::optimize()). `document` stays as it is.
 ///
 /// # Errors
 /// [`LevelsError`]: the options are not sound, the document has levels already, or no mesh has fewer faces at any level; or
@@ -45,7 +44,7 @@ pub fn levels_apart(
         let mut level = read_again()?;
         let notes = select(&mut level, &made, number);
         made.notes.extend(notes);
-        order(&mut level, options, &part)?;
+        put_in_order(&mut level, options, &part)?;
         counts.push(counts_of(level.meshes(), options));
         apart.push(level);
     }
@@ -80,28 +79,4 @@ fn select(document: &mut Document, made: &MadeLevels, number: usize) -> Vec<Note
         Some(Note::new(Place::File, format!("{name}: {text}")))
     };
     applied.into_iter().zip(names).filter_map(note).collect()
-}
-
-/// Puts a level in its order.
-fn order(
-    document: &mut Document,
-    options: &LevelsOptions,
-    progress: &dyn Progress,
-) -> Result<(), LevelsError> {
-    let optimizer = &options.optimizer;
-    let options = Options {
-        target: optimizer.target,
-        effort: optimizer.effort,
-        seed: optimizer.seed,
-        budget: optimizer.budget,
-        keep_corners: optimizer.keep_corners,
-        ..Options::default()
-    };
-    match optimize(document, &options, progress) {
-        Ok(_) => Ok(()),
-        Err(OptimizeError::File(error)) => Err(error.into()),
-        Err(OptimizeError::Options(error)) => Err(LevelsError::Options(
-            super::LevelsOptionsError::Ordering(error),
-        )),
-    }
 }

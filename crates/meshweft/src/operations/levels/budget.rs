@@ -5,6 +5,11 @@ use crate::geometry::double::rounded_up;
 use crate::operations::simplify::ErrorLimit;
 use crate::progressive::ProgressiveMesh;
 
+/// How far a level may be off to have as few faces as asked for, in diagonals of the largest object. The last vertices that
+/// can go (seams, borders, topology) may be any distance off: with such an error a level would be drawn where all is a few
+/// pixels large.
+const MOST_ERROR: f64 = 0.1;
+
 /// An object that gets coarser.
 pub(super) struct Budgeted<'a> {
     pub(super) progressive: &'a ProgressiveMesh,
@@ -53,10 +58,18 @@ impl Budgeted<'_> {
     }
 }
 
-/// The error of the last vertex that leaves, in units of the scene: a part may leave as a whole where it is smaller.
+/// The largest error that a number of faces is reached by, in units of the scene: that of the last vertex that leaves, as a
+/// part may leave as a whole where it is smaller, and no more than a share of the largest object.
 pub(super) fn largest_error(objects: &[Budgeted<'_>]) -> f32 {
     let errors = objects.iter().map(Budgeted::largest_error);
-    errors.fold(0.0, f32::max)
+    let most = MOST_ERROR * largest_diagonal(objects);
+    errors.fold(0.0, f32::max).min(rounded_up(most))
+}
+
+/// The diagonal of the largest object as it is drawn.
+fn largest_diagonal(objects: &[Budgeted<'_>]) -> f64 {
+    let diagonals = objects.iter().map(|it| it.diagonal * it.scale);
+    diagonals.fold(0.0, f64::max)
 }
 
 /// The level of each object, for each goal.
@@ -71,8 +84,7 @@ pub(super) fn levels_of_objects(objects: &[Budgeted<'_>], goals: &LevelGoals) ->
             .map(|most| within_faces(objects, most))
             .collect(),
         LevelGoals::Errors(errors) => {
-            let diagonals = objects.iter().map(|it| it.diagonal * it.scale);
-            let largest = diagonals.fold(0.0, f64::max);
+            let largest = largest_diagonal(objects);
             let within = |error: &ErrorLimit| {
                 let error = error.of_diagonal(largest);
                 objects.iter().map(|it| it.level_within(error)).collect()
@@ -123,12 +135,9 @@ fn within_faces(objects: &[Budgeted<'_>], most: usize) -> Vec<usize> {
         next = low + (within - low) / 2;
     }
     let coarse = levels(within);
-    let Some(above) = above else {
-        return coarse;
-    };
 
     // All that have removals of the last error need not take all of them.
-    let mut chosen = levels(above);
+    let mut chosen = above.map_or_else(|| vec![0; objects.len()], levels);
     let mut too_many = faces(&chosen).saturating_sub(most);
     for ((object, level), &coarsest) in objects.iter().zip(&mut chosen).zip(&coarse) {
         if too_many == 0 {

@@ -1,5 +1,6 @@
 //! The levels of a document, made and put into it.
 
+use super::coarser::put_in_order;
 use super::lists::LevelLists;
 use super::made::MadeLevels;
 use super::options::{LevelsError, LevelsOptions};
@@ -21,8 +22,8 @@ use crate::progress::Progress;
 ///   order of their first use by the full mesh. Nothing else that was there moves.
 /// - Each level is ordered as by [`optimize_indices`](crate::operations::optimize_indices).
 ///
-/// Of a document of another format a GLB is made first, with the names, positions and faces of its meshes: the document then
-/// is that. The result is the same on any number of threads.
+/// Of a document of another format a GLB is made and ordered first, with the names, positions and faces of its meshes: the
+/// document then is that. The result is the same on any number of threads.
 ///
 /// # Errors
 /// [`LevelsError`]: the options are not sound, the document has levels already, or a GLB would lose something that the options
@@ -53,7 +54,9 @@ pub fn levels(
     let mut lost = Vec::new();
     let mut glb = None;
     if !matches!(document.format(), Format::Gltf | Format::Glb) {
-        let converted = converted(document, options.drop_attributes)?;
+        let mut converted = converted(document, options.drop_attributes)?;
+        // A new file has no order that would have to stay.
+        put_in_order(&mut converted.document, options, &())?;
         (glb, lost) = (Some(converted.document), converted.lost);
     }
     let target = glb.as_ref().unwrap_or(document);

@@ -1,8 +1,10 @@
 //! One object at its levels.
 
-use super::options::LevelsOptions;
+use super::options::{LevelsError, LevelsOptions, LevelsOptionsError};
 use crate::files::{Document, MeshEntry};
 use crate::operations::indices::{IndexOptions, optimize_indices_with};
+use crate::operations::optimize::{OptimizeError, optimize};
+use crate::operations::options::Options;
 use crate::operations::simplify::{ProgressiveObject, ReducedMesh};
 use crate::permutation::VertexOrder;
 use crate::progress::Progress;
@@ -51,7 +53,7 @@ pub(super) fn levels_of_object(
 
 /// Puts the faces of a level in a good order, for vertices that will be in `order`; those of a mesh whose faces must stay
 /// are left in that of the file.
-pub(super) fn put_in_order(
+pub(super) fn put_list_in_order(
     entry: &MeshEntry,
     faces: &mut Vec<[u32; 3]>,
     order: Option<&VertexOrder>,
@@ -80,6 +82,30 @@ pub(super) fn put_in_order(
     if let Some(order) = order {
         for vertex in faces.as_flattened_mut() {
             *vertex = order.new_to_old()[*vertex as usize];
+        }
+    }
+}
+
+/// Puts a document in the order that its levels get.
+pub(super) fn put_in_order(
+    document: &mut Document,
+    options: &LevelsOptions,
+    progress: &dyn Progress,
+) -> Result<(), LevelsError> {
+    let optimizer = &options.optimizer;
+    let options = Options {
+        target: optimizer.target,
+        effort: optimizer.effort,
+        seed: optimizer.seed,
+        budget: optimizer.budget,
+        keep_corners: optimizer.keep_corners,
+        ..Options::default()
+    };
+    match optimize(document, &options, progress) {
+        Ok(_) => Ok(()),
+        Err(OptimizeError::File(error)) => Err(error.into()),
+        Err(OptimizeError::Options(error)) => {
+            Err(LevelsError::Options(LevelsOptionsError::Ordering(error)))
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::coarser::put_in_order;
+use super::coarser::put_list_in_order;
 use super::made::MadeLevels;
 use super::options::LevelsOptions;
 use crate::faces::Faces;
@@ -51,7 +51,7 @@ impl LevelLists {
         let shared = SharedProgress::new(stage, total);
         let job = |(entry, faces): (&MeshEntry, &mut Vec<[u32; 3]>)| {
             let part = shared.part(faces.len());
-            put_in_order(
+            put_list_in_order(
                 entry,
                 faces,
                 orders.get(&entry.vertex_group),

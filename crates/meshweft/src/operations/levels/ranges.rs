@@ -203,7 +203,7 @@ impl LevelRangesReport {
             ("companions", companions.collect::<Value>()),
             ("notes", json::notes(&self.notes)),
         ];
-        let mut report: Map<String, Value> = json::head("levels");
+        let mut report: Map<String, Value> = json::head("levels ranges");
         report.extend(members.map(|(name, value)| (name.to_owned(), value)));
         let levels = self.levels.iter().map(LevelRanges::json);
         json::with_list(&report, "levels", levels)

@@ -1,11 +1,13 @@
 //! `levels`: levels of detail in one ordinary GLB.
 
+mod ranges;
+
 use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Result;
-use clap::{ArgAction, Args};
-use meshweft::files::Document;
+use clap::{ArgAction, Args, ValueEnum};
+use meshweft::files::{Document, Edit};
 use meshweft::operations::{
     self, AttributeWeights, FileLevel, LevelGoals, LevelsOptions, LevelsReport,
 };
@@ -59,6 +61,14 @@ pub(crate) struct Levels {
     /// How much time the result is worth
     #[arg(long, value_enum, display_order = 4, default_value = "fast")]
     effort: Effort,
+    /// Lay the new file out for a client that reads it by byte ranges: geometry first, coarse to fine, images last
+    ///
+    /// In the JSON only byte offsets of buffer views change. --ranges says what a client needs for each level.
+    #[arg(long, value_enum, display_order = 5, conflicts_with = "separate")]
+    layout: Option<Layout>,
+    /// Write nothing, but print which byte ranges of each file a client needs for each of its levels
+    #[arg(long, display_order = 5, conflicts_with_all = ["output", "in_place", "dry_run", "separate", "layout", "ratios", "faces", "errors"])]
+    ranges: bool,
     /// Write each level to a file of its own with the vertices that it needs: OUT_LOD1.glb, OUT_LOD2.glb …
     ///
     /// Of any format that simplify writes; the full mesh is the input.
@@ -88,6 +98,12 @@ struct Goals {
     /// Largest errors of the removals of each level, rising: in units of the scene, or % of the diagonal of the largest object
     #[arg(long, value_name = "E,…", value_delimiter = ',', display_order = 1)]
     errors: Vec<Error>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Layout {
+    /// Geometry first, coarse to fine, images last
+    Stream,
 }
 
 impl Levels {
@@ -120,6 +136,10 @@ impl Levels {
 
 /// Adds levels to each file.
 pub(crate) fn run(arguments: &Levels) -> Result<()> {
+    if arguments.ranges {
+        return ranges::run(arguments);
+    }
+
     // What cannot be done is reported before a file is touched.
     let options = arguments.options()?;
     let mut jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
@@ -155,6 +175,9 @@ fn add_levels(
     let watch = Watch::new(None, shows_bar);
     let mut report = operations::levels(&mut document, options, &watch)?;
     watch.finish();
+    if arguments.layout == Some(Layout::Stream) {
+        document.edit(Edit::StreamLayout)?;
+    }
 
     let ending = Ending {
         job,
@@ -223,8 +246,8 @@ fn text(report: &LevelsReport) -> String {
     if let Some(floor) = report.floor {
         let percent = 100.0 * floor as f64 / full.max(1) as f64;
         let further = match report.options.cross_seams {
-            true => "no other vertex can go (borders, topology)",
-            false => "--cross-seams goes further",
+            true => "--errors goes further, with larger errors",
+            false => "--cross-seams goes further, or --errors",
         };
         text += &format!(
             "\n  floor {} faces ({percent:.1} %): {further}",
