@@ -137,15 +137,22 @@ impl Levels {
 /// Adds levels to each file.
 pub(crate) fn run(arguments: &Levels) -> Result<()> {
     if arguments.ranges {
-        return ranges::run(arguments);
+        let Levels {
+            inputs,
+            reading,
+            report,
+            ..
+        } = arguments;
+        return ranges::run(inputs, reading, report);
     }
 
     // What cannot be done is reported before a file is touched.
     let options = arguments.options()?;
-    let mut jobs = Jobs::new(&arguments.inputs, &arguments.run)?;
-    if arguments.separate {
-        jobs = jobs.in_levels(options.goals.len())?;
-    }
+    let (inputs, flags) = (&arguments.inputs, &arguments.run);
+    let jobs = match arguments.separate {
+        true => Jobs::in_levels(inputs, flags, options.goals.len())?,
+        false => Jobs::new(inputs, flags)?,
+    };
     let shows_bar = jobs.list.len() == 1 && arguments.report.shows_progress();
     let work = |job: &Job| match arguments.separate {
         true => write_apart(job, &jobs, &options, shows_bar, arguments),

@@ -1,25 +1,26 @@
 //! `levels --ranges`: which bytes of a file each level needs.
 
+use std::path::PathBuf;
+
 use anyhow::Result;
 use meshweft::files::Document;
 use meshweft::operations::{
     FileRange, LevelRanges, LevelRangesOptions, LevelRangesReport, level_ranges,
 };
 
-use super::Levels;
 use crate::columns::columns;
+use crate::run::arguments::Reading;
 use crate::run::inputs;
-use crate::run::output;
+use crate::run::output::{Report, note_lines};
 
 /// Prints the ranges of each file.
-pub(super) fn run(arguments: &Levels) -> Result<()> {
-    for input in inputs::expand(&arguments.inputs, None)? {
-        let document = Document::open(&input.path, arguments.reading.options(&[]))?;
+pub(super) fn run(files: &[PathBuf], reading: &Reading, output: &Report) -> Result<()> {
+    for input in inputs::expand(files, None)? {
+        let document = Document::open(&input.path, reading.options(&[]))?;
         let report = level_ranges(&document, &LevelRangesOptions::default())?;
-        arguments.report.json_line(&report.to_json())?;
-        arguments.report.text(&text(&report))?;
-        let notes = output::note_lines(&report.file, &report.notes);
-        arguments.report.notes(&notes)?;
+        output.json_line(&report.to_json())?;
+        output.text(&text(&report))?;
+        output.notes(&note_lines(&report.file, &report.notes))?;
     }
     Ok(())
 }

@@ -34,6 +34,11 @@ impl Jobs {
     /// No place to write, several files to one place, an input that would be replaced unasked, and
     /// what [`inputs::expand`] refuses.
     pub(crate) fn new(names: &[PathBuf], run: &Run) -> Result<Self> {
+        Self::called(names, run, |target| target)
+    }
+
+    /// The same with other names of what is written.
+    fn called(names: &[PathBuf], run: &Run, name: impl Fn(PathBuf) -> PathBuf) -> Result<Self> {
         let output = run.output.as_deref();
         if output.is_none() && !run.in_place && !run.dry_run {
             let text = "where to? Give -o OUT, --in-place, or --dry-run";
@@ -63,7 +68,7 @@ impl Jobs {
             };
             let job = Job {
                 input: input.path,
-                target,
+                target: name(target),
             };
 
             if output.is_some() {
@@ -117,16 +122,16 @@ impl Jobs {
 const LEVEL: &str = "_LOD";
 
 impl Jobs {
-    /// The same jobs, each of which writes so many files: the names of levels 1, 2 … ; the first one is the target.
+    /// As [`new`](Self::new), but each job writes so many files: the names of levels 1, 2 … ; the first one is the target.
     ///
     /// # Errors
-    /// One of them is an input, or the target of two jobs.
-    pub(crate) fn in_levels(mut self, count: usize) -> Result<Self, Usage> {
-        let inputs = self.list.iter().filter_map(|job| whole(&job.input));
+    /// Also that one of them is an input, or the target of two jobs.
+    pub(crate) fn in_levels(names: &[PathBuf], run: &Run, count: usize) -> Result<Self> {
+        let mut jobs = Self::called(names, run, |target| level_name(&target, 1))?;
+        let inputs = jobs.list.iter().filter_map(|job| whole(&job.input));
         let inputs: BTreeSet<PathBuf> = inputs.collect();
         let mut seen = BTreeSet::new();
-        for job in &mut self.list {
-            job.target = level_name(&job.target, 1);
+        for job in &jobs.list {
             for number in 1..=count {
                 let target = job.at_level(number).target;
                 if whole(&target).is_some_and(|target| inputs.contains(&target)) {
@@ -135,22 +140,22 @@ impl Jobs {
                         "{target} would be written over by level {number} of {input}, and is an input too: choose \
                          another output"
                     );
-                    return Err(Usage(text));
+                    return Err(Usage(text).into());
                 }
                 if !seen.insert(target.clone()) {
                     let text = format!("two levels would be written to {}", target.display());
-                    return Err(Usage(text));
+                    return Err(Usage(text).into());
                 }
             }
         }
-        let levels = self.list.iter().flat_map(|job| {
+        let levels = jobs.list.iter().flat_map(|job| {
             let targets = (1..=count).map(|number| job.at_level(number).target);
             targets.map(|target| (job.input.clone(), target))
         });
         let levels: Vec<(PathBuf, PathBuf)> = levels.collect();
         let pairs = levels.iter();
-        self.outputs = Outputs::of(pairs.map(|(input, target)| (&**input, &**target)));
-        Ok(self)
+        jobs.outputs = Outputs::of(pairs.map(|(input, target)| (&**input, &**target)));
+        Ok(jobs)
     }
 }
 

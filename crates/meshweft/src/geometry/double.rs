@@ -70,6 +70,7 @@ impl Bounds {
     }
 
     /// The middle; the origin without points.
+    #[cfg(feature = "files")]
     pub(crate) fn center(&self) -> [f64; 3] {
         match self.low[0] <= self.high[0] {
             true => scaled(add(self.low, self.high), 0.5),

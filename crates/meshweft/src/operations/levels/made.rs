@@ -43,11 +43,11 @@ impl MadeLevels {
         stage: &Stage<'_>,
     ) -> Result<Self, LevelsError> {
         let file = || document.path().to_owned();
-        let mut entries = document.meshes().iter();
-        if let Some(entry) = entries.find(|entry| entry.level.is_some()) {
+        let entries = document.meshes();
+        if let Some(level) = entries.iter().find_map(|entry| entry.level) {
             return Err(LevelsError::HasLevels {
                 file: file(),
-                mesh: entry.name.clone(),
+                mesh: entries[level.of].name.clone(),
             });
         }
         let made = Self::new(document, options, stage);

@@ -41,7 +41,7 @@ impl Reduced {
     /// Why they cannot be simplified.
     ///
     /// # Complexity
-    /// That of [`Collapses::build`] and [`deviation`].
+    /// That of [`Collapses::build`] and [`deviation`](crate::geometry::deviation()).
     pub(super) fn new(
         document: &Document,
         meshes: &[usize],
