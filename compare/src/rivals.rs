@@ -6,6 +6,9 @@ use meshopt::ffi;
 use meshweft::Mesh;
 use meshweft::cache::BatchModel;
 
+/// In units of a mesh's extent: no error is above.
+const ANY_ERROR: f32 = 1e10;
+
 /// How many vertices meshoptimizer's analyzer counts as transformed.
 #[must_use]
 pub fn vertices_transformed(mesh: &Mesh, model: BatchModel) -> u64 {
@@ -92,8 +95,6 @@ impl Meshopt {
 /// If the mesh has no positions.
 #[must_use]
 pub fn simplified(mesh: &Mesh, face_count: usize) -> Vec<[u32; 3]> {
-    /// In units of the mesh's extent: no error is above.
-    const ANY_ERROR: f32 = 1e10;
     simplify(mesh, face_count.min(mesh.face_count()), ANY_ERROR)
 }
 
@@ -123,6 +124,55 @@ fn simplify(mesh: &Mesh, face_count: usize, error: f32) -> Vec<[u32; 3]> {
             face_count * 3,
             error,
             0,
+            std::ptr::null_mut(),
+        )
+    };
+    faces.truncate(index_count / 3);
+    faces
+}
+
+/// The faces that meshoptimizer's `simplifyWithAttributes` leaves when asked for this many, with any error
+/// allowed; `prunes` lets parts of the mesh leave as a whole. It may stop at more faces. `weights` has what a
+/// difference of 1 in each of the `N` attributes of a vertex counts.
+///
+/// # Panics
+/// If the mesh has no positions, or another number of vertices has attributes.
+#[must_use]
+pub fn simplified_with_attributes<const N: usize>(
+    mesh: &Mesh,
+    attributes: &[[f32; N]],
+    weights: &[f32; N],
+    face_count: usize,
+    prunes: bool,
+) -> Vec<[u32; 3]> {
+    const { assert!(N <= 32) };
+    let options = match prunes {
+        true => meshopt::SimplifyOptions::Prune,
+        false => meshopt::SimplifyOptions::None,
+    };
+    assert_eq!(mesh.positions().len(), mesh.vertex_count(), "no positions");
+    assert_eq!(attributes.len(), mesh.vertex_count(), "a row a vertex");
+    let mut faces = vec![[0_u32; 3]; mesh.face_count()];
+    // SAFETY: the first pointer is to room for as many indices as there are, the second to these
+    // indices, which are below the number of vertices in every mesh, then as many positions, 12 bytes each,
+    // and as many rows of N attributes; there are N weights, at most 32, no locks, and the result is not asked
+    // for its error.
+    let index_count = unsafe {
+        ffi::meshopt_simplifyWithAttributes(
+            faces.as_mut_ptr().cast(),
+            mesh.faces().as_ptr().cast(),
+            mesh.face_count() * 3,
+            mesh.positions().as_ptr().cast(),
+            mesh.vertex_count(),
+            size_of::<[f32; 3]>(),
+            attributes.as_ptr().cast(),
+            size_of::<[f32; N]>(),
+            weights.as_ptr(),
+            N,
+            std::ptr::null(),
+            face_count.min(mesh.face_count()) * 3,
+            ANY_ERROR,
+            options.bits(),
             std::ptr::null_mut(),
         )
     };

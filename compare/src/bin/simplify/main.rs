@@ -2,7 +2,7 @@
 //! and how long both take, as Markdown.
 //!
 //! ```text
-//! cargo run --release --bin simplify -- [--effort fast|best] [--samples N] [mesh files]
+//! cargo run --release --bin simplify -- [--effort fast|best] [--samples N] [files]
 //! ```
 //!
 //! Ten meshes of the test data by default, ordered for a cache before. At 50, 20, 5 and 1 % of the faces: meshoptimizer's result
@@ -12,6 +12,8 @@
 //!
 //! ```text
 //!   --floors   the fewest faces of either, by default of five scenes with seams, skins and morph targets
+//!   --scenes   distances of glTF scenes at 50, 25, 10 and 5 % of the faces, both efforts, against what gltfpack does
+//!              (--objects: a row of each object, too; --drop-parts: parts of ours may leave)
 //!   --growth   memory and time a face at 1 and 10 million faces, or of the meshes that are named
 //! ```
 
@@ -19,6 +21,7 @@ mod figures;
 mod floors;
 mod growth;
 mod ours;
+mod scenes;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -59,7 +62,7 @@ fn main() -> ExitCode {
 
 fn run() -> Result<(), String> {
     let (mut effort, mut samples) = (Effort::Fast, SAMPLES);
-    let mut table = None;
+    let (mut table, mut variants) = (None, scenes::Variants::default());
     let mut files = Vec::new();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
@@ -77,13 +80,19 @@ fn run() -> Result<(), String> {
                 let number = text.parse();
                 samples = number.map_err(|_| format!("--samples {text}: not a number"))?;
             }
-            "--floors" | "--growth" => table = Some(argument),
+            "--floors" | "--growth" | "--scenes" => table = Some(argument),
+            "--objects" => variants.prints_objects = true,
+            "--drop-parts" => variants.drops_parts = true,
             flag if flag.starts_with("--") => return Err(format!("{flag} is not a flag")),
             _ => files.push(PathBuf::from(argument)),
         }
     }
     if table.as_deref() == Some("--growth") {
         return growth::print(&files);
+    }
+    if table.as_deref() == Some("--scenes") {
+        let files = compare::files_or(files, scenes::files)?;
+        return scenes::print(&files, samples, variants);
     }
     if table.is_some() {
         let scenes = |data: &Path| {
