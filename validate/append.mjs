@@ -7,11 +7,11 @@
 import { execFile } from "node:child_process";
 import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { basename, dirname, join, relative } from "node:path";
+import { basename, join, relative } from "node:path";
 import { promisify } from "node:util";
 
 import { compareDrawn } from "./drawn.mjs";
-import { Glb } from "./glb.mjs";
+import { buffersOf, findingChanges, notContained } from "./kept.mjs";
 import { make } from "./made.mjs";
 import { copyAround, filesBelow, findings, isError, isGlb, jsonOf, names } from "./reading.mjs";
 import { loadScene } from "./three.mjs";
@@ -72,38 +72,6 @@ class Tally {
     }
 }
 
-/** What of the old JSON is not in the new one at its place; lengths of buffers are told apart. */
-function notContained(old, now, pointer, grown) {
-    if (Array.isArray(old) && Array.isArray(now)) {
-        if (now.length < old.length) return [`${pointer}: shorter`];
-        return old.flatMap((value, i) => notContained(value, now[i], `${pointer}/${i}`, grown));
-    }
-    if (old !== null && typeof old === "object" && now !== null && typeof now === "object") {
-        return Object.entries(old).flatMap(([name, value]) => {
-            return name in now ? notContained(value, now[name], `${pointer}/${name}`, grown) : [`${pointer}/${name}: gone`];
-        });
-    }
-    if (old === now) return [];
-    const [, list, number, member, ...more] = pointer.split("/");
-    const isLength = list === "buffers" && member === "byteLength" && more.length === 0 && now > old;
-    // The data of a buffer in the text; it is compared as bytes.
-    const isData = list === "buffers" && member === "uri" && String(now).startsWith("data:");
-    if (!isLength && !isData) return [`${pointer}: ${old} | ${now}`];
-    grown.add(number);
-    return [];
-}
-
-/** The bytes of each buffer that can be read, the binary chunk with what follows it in its chunk. */
-async function buffersOf(file, json) {
-    const glb = isGlb(file) ? new Glb(await readFile(file)) : undefined;
-    const bytes = async ({ uri }, number) => {
-        if (uri === undefined) return number === 0 && glb ? glb.buffers[0] : undefined;
-        if (uri.startsWith("data:")) return Buffer.from(uri.slice(uri.indexOf(",") + 1), "base64");
-        return readFile(join(dirname(file), decodeURIComponent(uri))).catch(() => undefined);
-    };
-    return Promise.all((json.buffers ?? []).map(bytes));
-}
-
 /** What of the old file does not stand where it stood. */
 async function notKept(source, result, before, after) {
     const grown = new Set();
@@ -124,18 +92,6 @@ async function notKept(source, result, before, after) {
     return problems;
 }
 
-/** Findings that one list has more often than the other, but for information. */
-function moreOften(list, than) {
-    const text = ({ severity, code, pointer, offset, message }) => `${severity} ${code} ${pointer ?? offset} ${message}`;
-    const counts = new Map();
-    for (const finding of than) counts.set(text(finding), (counts.get(text(finding)) ?? 0) + 1);
-    return list.filter((finding) => {
-        const left = counts.get(text(finding)) ?? 0;
-        counts.set(text(finding), left - 1);
-        return left <= 0;
-    });
-}
-
 /** Compares findings; new ones are allowed where they are old ones seen through new elements. */
 function compareFindings(name, before, after, json, tally) {
     const weighty = ({ messages }) => messages.filter(({ severity }) => severity !== INFORMATION);
@@ -144,14 +100,10 @@ function compareFindings(name, before, after, json, tally) {
     tally.information[0] += before.messages.length - old.length;
     tally.information[1] += after.messages.length - now.length;
     const where = ({ code, pointer, offset, message }) => `${name}: ${code} at ${pointer ?? offset}: ${message}`;
-    for (const lost of moreOften(old, now)) tally.problems.push(`${where(lost)}: not found any more`);
-    for (const found of moreOften(now, old)) {
-        const [, list, number] = (found.pointer ?? "").split("/");
-        const isNew = Number(number) >= (json[list]?.length ?? 0);
-        const isKnown = old.some(({ code, pointer }) => code === found.code && pointer?.split("/")[1] === list);
-        if (isNew && isKnown) tally.again.push(where(found));
-        else tally.problems.push(`validator: ${where(found)}`);
-    }
+    const { lost, again, added } = findingChanges(old, now, json);
+    for (const finding of lost) tally.problems.push(`${where(finding)}: not found any more`);
+    tally.again.push(...again.map(where));
+    tally.problems.push(...added.map((finding) => `validator: ${where(finding)}`));
 }
 
 /** Adds to one file and compares. */

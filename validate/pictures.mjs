@@ -3,36 +3,23 @@
 //
 // Usage: node pictures.mjs MESHWEFT DATA_FOLDER [FOLDER_FOR_PICTURES]
 //
-// Needs Debian's package chromium (or CHROMIUM, the path of another). That the pictures can tell is made
-// sure of: ordered with --reorder-transparent, the made scene must look different.
+// That the pictures can tell is made sure of: ordered with --reorder-transparent, the made scene must look different.
 
 import { execFile } from "node:child_process";
-import { createServer } from "node:http";
 import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { dirname, extname, join, normalize } from "node:path";
-import { fileURLToPath } from "node:url";
+import { join } from "node:path";
 import { promisify } from "node:util";
 
-import { chromium } from "playwright-core";
-
+import { openPage } from "./browser.mjs";
 import { copyAround, isChanged } from "./reading.mjs";
 import { EYE, seen } from "./seen.mjs";
 
 const [program, data, pictures] = process.argv.slice(2);
 const run = promisify(execFile);
-const here = dirname(fileURLToPath(import.meta.url));
 const SIZE = 384;
-const MEDIA = { ".html": "text/html", ".js": "text/javascript", ".png": "image/png", ".gltf": "model/gltf+json" };
-/** In place of textures that the test data does not have. */
-const GREY = Buffer.from(
-    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGNoAAAAggCBd81ytgAAAABJRU5ErkJggg==",
-    "base64",
-);
 
-const PAGE = `<!doctype html><script type="importmap">{"imports": {
-    "three": "/three/build/three.module.js", "three/addons/": "/three/examples/jsm/"}}</script>
-<script type="module">
+const SCRIPT = `
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
@@ -89,24 +76,7 @@ window.draw = async (uri, view, variant, isOpaqueAlone) => {
     for (const byte of pixels) text += String.fromCharCode(byte);
     return btoa(text);
 };
-window.isReady = true;
-</script>`;
-
-/** Serves three.js, and the folder of the scenes, to this machine alone. */
-function serve(scenes) {
-    const server = createServer(async ({ url }, answer) => {
-        const path = normalize(decodeURIComponent(new URL(url, "http://localhost").pathname));
-        const send = (bytes, ending) => answer
-            .writeHead(200, { "content-type": MEDIA[ending] ?? "model/gltf-binary", "cache-control": "no-store" })
-            .end(bytes);
-        if (path === "/") return send(PAGE, ".html");
-        const file = path.startsWith("/three/") ? join(here, "node_modules", path) : join(scenes, path);
-        const isPicture = [".png", ".jpg", ".jpeg"].includes(extname(file));
-        const bytes = await readFile(file).catch(() => (isPicture ? GREY : undefined));
-        return bytes ? send(bytes, isPicture ? ".png" : extname(file)) : answer.writeHead(404).end();
-    });
-    return new Promise((done) => server.listen(0, "127.0.0.1", () => done(server)));
-}
+`;
 
 /** Where two pictures differ, and by how much at most. */
 function different(a, b) {
@@ -138,19 +108,10 @@ async function opaqueTies(picture, before, after, view, variant) {
 }
 
 const scratch = await mkdtemp(join(tmpdir(), "meshweft-pictures-"));
-const server = await serve(scratch);
-const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic",
-        "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
-});
+const faults = [];
+const { page, close } = await openPage(SCRIPT, scratch, faults);
 let failed = 0;
 try {
-    const page = await browser.newPage();
-    const faults = [];
-    page.on("pageerror", (error) => faults.push(String(error)));
-    await page.goto(`http://127.0.0.1:${server.address().port}/`);
-    await page.waitForFunction("window.isReady === true");
     const picture = async (uri, view, variant, isOpaqueAlone = false) => {
         const text = await page.evaluate(([...all]) => window.draw(...all), [uri, view, variant, isOpaqueAlone]);
         if (pictures && !isOpaqueAlone) {
@@ -218,8 +179,7 @@ try {
     for (const fault of faults) console.log(`DIFFERENT: ${fault}`);
     failed += faults.length;
 } finally {
-    await browser.close();
-    server.close();
+    await close();
     await rm(scratch, { recursive: true, force: true });
 }
 if (failed) process.exitCode = 1;
