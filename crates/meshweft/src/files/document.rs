@@ -425,6 +425,10 @@ impl Document {
     }
 
     /// The positions of the vertices of a file without faces, such as a point cloud in a PLY file; empty if it has faces.
+    #[cfg_attr(
+        not(feature = "height-maps"),
+        expect(dead_code, reason = "only terrain is made of points")
+    )]
     pub(crate) fn loose_positions(&self) -> Result<Vec<[f32; 3]>, FileError> {
         let found = self.content.loose_positions();
         let found = found.map_err(|problem| problem.in_file(&self.path, Some(self.format)))?;
