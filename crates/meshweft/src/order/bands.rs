@@ -1,5 +1,6 @@
 //! Vertices of several levels of detail in one buffer, so that what each level uses is a prefix of it.
 
+use crate::cache::{fetched, ratio, used_vertices};
 use crate::faces::Faces;
 use crate::index::index32;
 use crate::permutation::{Permutation, VertexOrder};
@@ -7,11 +8,11 @@ use crate::permutation::{Permutation, VertexOrder};
 /// The vertices in bands: first those of the coarsest level, then what each finer one adds.
 ///
 /// `levels` are the faces of each level from fine to coarse, over the same vertices. The vertices that a level
-/// and all coarser ones use are a prefix. Inside a band the finest level that uses a vertex decides: first come those of
-/// `levels[0]`, by first use in that, then those that only coarser levels have. Unused vertices come last, in file order. So the finest
-/// level, which has the most to fetch, is fetched nearly as well as on its own: 1.17 bytes for each that is needed, of scanned meshes
+/// and all coarser ones use are a prefix. Inside a band vertices are by first use: in the finest level that uses them, or in the
+/// coarsest, whichever fetches less of all levels together, each by what it needs. The finest is better where it is in a good order: it has
+/// the most to fetch, and takes 1.17 bytes for each that is needed, of scanned meshes
 /// with 32-byte vertices and four levels, where [`vertex_fetch()`](super::vertex_fetch()) of the finest alone comes to 1.14, and
-/// to 1.7 to 2 on the others.
+/// to 1.7 to 2 on the others. Unused vertices come last, in file order.
 ///
 /// # Panics
 /// If the levels have different numbers of vertices.
@@ -44,21 +45,32 @@ pub fn vertex_bands(levels: &[Faces<'_>]) -> VertexOrder {
         }
     }
 
+    // First use in the finest level, or in the coarsest.
+    let finest = in_bands(&band_of, levels.iter());
+    let coarsest = in_bands(&band_of, levels.iter().rev());
+    let [from_finest, from_coarsest] = [&finest, &coarsest].map(|order| overfetch(levels, order));
+    match from_coarsest < from_finest {
+        true => coarsest,
+        false => finest,
+    }
+}
+
+/// The vertices in bands, inside them by first use in these levels, one after the other.
+fn in_bands<'a>(band_of: &[usize], levels: impl Iterator<Item = &'a Faces<'a>>) -> VertexOrder {
     // Where the next vertex of each band goes.
-    let mut next = vec![0; levels.len() + 2];
-    for &band in &band_of {
+    let band_count = band_of.iter().max().map_or(0, |&last| last + 1);
+    let mut next = vec![0; band_count + 1];
+    for &band in band_of {
         next[band + 1] += 1;
     }
-    for band in 0..=unused {
+    for band in 0..band_count {
         next[band + 1] += next[band];
     }
 
-    let mut seen = vec![false; vertex_count];
-    let mut new_to_old = vec![0; vertex_count];
-    let uses = levels
-        .iter()
-        .flat_map(|faces| faces.as_slice().as_flattened());
-    for vertex in uses.copied().chain(0..index32(vertex_count)) {
+    let mut seen = vec![false; band_of.len()];
+    let mut new_to_old = vec![0; band_of.len()];
+    let uses = levels.flat_map(|faces| faces.as_slice().as_flattened());
+    for vertex in uses.copied().chain(0..index32(band_of.len())) {
         if !std::mem::replace(&mut seen[vertex as usize], true) {
             let place = &mut next[band_of[vertex as usize]];
             new_to_old[*place] = vertex;
@@ -68,6 +80,18 @@ pub fn vertex_bands(levels: &[Faces<'_>]) -> VertexOrder {
     Permutation::from_algorithm(new_to_old).into()
 }
 
+/// Bytes fetched over bytes needed of vertices with 32 bytes in an order, summed over the levels.
+fn overfetch(levels: &[Faces<'_>], order: &VertexOrder) -> f64 {
+    const VERTEX_SIZE: usize = 32;
+    let of_level = |faces: &Faces<'_>| {
+        let renumbered = order.renumber(faces.as_slice());
+        let renumbered = Faces::of_checked(&renumbered, faces.vertex_count());
+        let needed = VERTEX_SIZE * used_vertices(renumbered);
+        ratio(fetched(renumbered, VERTEX_SIZE), needed)
+    };
+    levels.iter().map(of_level).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,7 +99,7 @@ mod tests {
     use crate::random::SplitMix64;
 
     #[test]
-    fn what_only_coarser_levels_have_comes_after_the_rest_of_its_band() {
+    fn the_numbers_of_vertices_follow_from_bands_and_first_use() {
         let levels: [&[[u32; 3]]; 3] = [&[[7, 6, 5]], &[[1, 6, 2]], &[[2, 0, 6]]];
         let levels = levels.map(|faces| Faces::of_checked(faces, 9));
         // The coarsest: 6 of the finest, 2 of the next, 0 of its own. Then 1, then 7 and 5; 3, 4 and 8 are unused.

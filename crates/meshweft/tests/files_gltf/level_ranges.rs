@@ -206,7 +206,7 @@ fn as_json_a_range_has_a_file_a_start_and_a_length() {
     let kind = all()[0];
     let report = ranges(&open(made(kind).glb()), 0);
     let json: Value = serde_json::from_str(&report.to_json()).unwrap();
-    assert_eq!(json["command"], "levels");
+    assert_eq!(json["command"], "levels ranges");
     assert_eq!(json["head_bytes"], report.head_bytes);
     let [first, range] = [&json["levels"][0], &json["levels"][0]["ranges"][0]];
     assert_eq!((&first["level"], &first["faces"]), (&json!(2), &json!(184)));

@@ -25,11 +25,7 @@ impl DrawnLevels {
     /// # Complexity
     /// Time O(n log n) and space O(n) in the nodes and what they name.
     pub(super) fn new(root: &Object) -> Self {
-        let nodes: Vec<Value<'_>> = root
-            .value("nodes")
-            .into_iter()
-            .flat_map(Value::elements)
-            .collect();
+        let nodes: Vec<Value<'_>> = root.elements("nodes").collect();
 
         // The nodes with levels, and those that replace them, each with its levels. A level has none itself.
         let replaces = replacing(&nodes);

@@ -50,11 +50,8 @@ impl GltfFile {
     /// The largest scale that each glTF mesh is drawn with.
     fn scales_of_meshes(&self, root: &Object<'_>) -> BTreeMap<usize, f64> {
         let accessors = Accessors::new(root, &self.buffers, &[]).ok();
-        let list = |name: &str| -> Vec<Value<'_>> {
-            let list = root.value(name).into_iter();
-            list.flat_map(Value::elements).collect()
-        };
-        let (nodes, skins) = (list("nodes"), list("skins"));
+        let nodes: Vec<Value<'_>> = root.elements("nodes").collect();
+        let skins: Vec<Value<'_>> = root.elements("skins").collect();
         let all_axes = &axes_of_nodes(&nodes);
         let mut of_skins: BTreeMap<usize, f64> = BTreeMap::new();
         let mut of_meshes: BTreeMap<usize, f64> = BTreeMap::new();

@@ -32,7 +32,7 @@ impl Growth {
     /// The binary chunk of a GLB, made if there are no buffers yet; of a text, the last buffer that may
     /// change; else a new buffer in the text.
     pub(super) fn new(root: &Object, container: &Container, buffers: &Buffers) -> Self {
-        let declared: Vec<Value<'_>> = elements(root).collect();
+        let declared: Vec<Value<'_>> = root.elements("buffers").collect();
         let length = |storage: usize| buffers.storages[storage].bytes.len();
         let is_whole = |buffer: usize, storage: usize| {
             let promised = declared.get(buffer).and_then(|b| b.get("byteLength"));
@@ -98,7 +98,7 @@ impl Growth {
         let length = self.start + new.len();
         match &self.storage {
             GrowingStorage::Named(_) => {
-                let buffer = elements(root).nth(self.buffer)?;
+                let buffer = root.elements("buffers").nth(self.buffer)?;
                 Some((buffer.get("byteLength")?.span(), length.to_string()))
             }
             GrowingStorage::New(Source::Data { prefix, .. }) => {
@@ -194,8 +194,4 @@ impl Growth {
             GrowingStorage::New(_) => drop(buffers.storages.pop()),
         }
     }
-}
-
-fn elements<'a>(root: &Object<'a>) -> impl Iterator<Item = Value<'a>> {
-    root.value("buffers").into_iter().flat_map(Value::elements)
 }

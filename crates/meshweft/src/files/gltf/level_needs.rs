@@ -11,7 +11,6 @@ use super::byte_users::index_size;
 use super::drawn_levels::DrawnLevels;
 use super::entries::Entries;
 use super::json::Value;
-use super::movable::PrimitiveNumber;
 use super::object::Object;
 use super::primitive_reads::{PrimitiveReads, each_primitive, matrices};
 use super::strided_records::StridedRecords;
@@ -49,13 +48,15 @@ impl GltfFile {
         };
 
         // What each primitive needs, at the coarsest level that draws it.
-        let used = UsedVertices::new(&self.view.entries);
+        let entries = &self.view.entries;
+        let used = used_vertices(entries);
         let mut counts = Counted::default();
         each_primitive(&root, |reads| {
             let levels = drawn.of(reads.number.mesh as usize);
             let levels = levels.unwrap_or(0..=drawn.coarsest);
             let geometry = &mut found.levels[drawn.coarsest - levels.end()].geometry;
-            let used = used.of(reads.number);
+            // That of lines and compressed faces is not known.
+            let used = entries.mesh_of(reads.number).map(|mesh| used[mesh]);
             counts.add(&reads, used, levels, &accessors);
             for &list in &reads.lists {
                 files.add_accessor(list, None, geometry);
@@ -106,38 +107,17 @@ struct Used {
     vertices: usize,
 }
 
-/// What is used by each primitive whose faces are a mesh.
-struct UsedVertices {
-    of_entry: Vec<Used>,
-    entry_of: BTreeMap<PrimitiveNumber, usize>,
-}
-
-impl UsedVertices {
-    fn new(entries: &Entries) -> Self {
-        let of_entry = entries.meshes.iter().map(|entry| {
-            let faces = entry.mesh.faces();
-            let last = faces.as_flattened().iter().max();
-            Used {
-                faces: faces.len() as u64,
-                vertices: last.map_or(0, |&last| last as usize + 1),
-            }
-        });
-        let firsts = entries.first_primitives.iter().zip(0..);
-        let mut entry_of: BTreeMap<_, usize> =
-            firsts.map(|(&first, entry)| (first, entry)).collect();
-        for (&other, first) in &entries.repeated {
-            entry_of.insert(other, entry_of[first]);
+/// What is used by each mesh.
+fn used_vertices(entries: &Entries) -> Vec<Used> {
+    let used = entries.meshes.iter().map(|entry| {
+        let faces = entry.mesh.faces();
+        let last = faces.as_flattened().iter().max();
+        Used {
+            faces: faces.len() as u64,
+            vertices: last.map_or(0, |&last| last as usize + 1),
         }
-        Self {
-            of_entry: of_entry.collect(),
-            entry_of,
-        }
-    }
-
-    /// `None` if that is not known: lines, compressed faces.
-    fn of(&self, number: PrimitiveNumber) -> Option<Used> {
-        Some(self.of_entry[*self.entry_of.get(&number)?])
-    }
+    });
+    used.collect()
 }
 
 /// Turns what accessors and views read into bytes of files.

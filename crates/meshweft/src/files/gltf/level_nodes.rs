@@ -186,9 +186,7 @@ impl<'a> LevelNodes<'a> {
 
     /// What moves a node moves its copies.
     fn animate(&self, new: &mut NewMeshes<'_>) {
-        let animations = self.root.value("animations");
-        let animations = animations.into_iter().flat_map(Value::elements);
-        for (number, animation) in animations.enumerate() {
+        for (number, animation) in self.root.elements("animations").enumerate() {
             let number = number.to_string();
             let channels = animation.get("channels");
             for channel in channels.into_iter().flat_map(Value::elements) {

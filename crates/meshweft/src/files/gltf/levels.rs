@@ -23,8 +23,8 @@ pub(super) const EXTRAS: &str = "MESHWEFT_level";
 /// # Complexity
 /// Time O(n log n) in the nodes, what they name, and the primitives.
 pub(super) fn add(root: &Object, entries: &mut Entries) {
-    let nodes = elements(root, "nodes");
-    let meshes = elements(root, "meshes");
+    let nodes: Vec<Value<'_>> = root.elements("nodes").collect();
+    let meshes: Vec<Value<'_>> = root.elements("meshes").collect();
     let levels = mesh_levels(&nodes, &meshes);
     if levels.is_empty() {
         return;
@@ -144,10 +144,4 @@ fn stated_error(mesh: Value<'_>) -> Option<f32> {
     let stated = mesh.get("extras").and_then(|extras| extras.get(EXTRAS));
     let error: f32 = stated?.get("error")?.raw().parse().ok()?;
     (error.is_finite() && error >= 0.0).then_some(error)
-}
-
-/// The elements of an array at the root.
-fn elements<'a>(root: &Object<'a>, name: &str) -> Vec<Value<'a>> {
-    let array = root.value(name).into_iter();
-    array.flat_map(Value::elements).collect()
 }

@@ -120,6 +120,11 @@ impl<'a> Object<'a> {
         }
     }
 
+    /// The elements of an array; none if it is not there, or is something else.
+    pub(super) fn elements(&self, name: &str) -> impl Iterator<Item = Value<'a>> + use<'a> {
+        self.value(name).into_iter().flat_map(Value::elements)
+    }
+
     /// The elements of an array of objects.
     pub(super) fn objects(
         &self,

@@ -33,7 +33,7 @@ impl GltfFile {
 
         // All primitives.
         let of_vrm = materials_of_vrm(&root);
-        let materials = all(&root, "materials").enumerate();
+        let materials = root.elements("materials").enumerate();
         let shows_backs: Vec<bool> = materials
             .map(|(number, material)| {
                 let is_double = material.get("doubleSided").is_some_and(Value::is_true);
@@ -41,14 +41,16 @@ impl GltfFile {
             })
             .collect();
         let mut primitives = BTreeMap::new();
-        for (mesh, value) in (0_u32..).zip(all(&root, "meshes")) {
+        for (mesh, value) in (0_u32..).zip(root.elements("meshes")) {
             let list = value.get("primitives").into_iter();
             for (primitive, value) in (0_u32..).zip(list.flat_map(Value::elements)) {
                 let number = PrimitiveNumber { mesh, primitive };
                 primitives.insert(number, DrawnPrimitive::of(value, &shows_backs));
             }
         }
-        let skinned = all(&root, "nodes").filter(|node| node.get("skin").is_some());
+        let skinned = root
+            .elements("nodes")
+            .filter(|node| node.get("skin").is_some());
         let skinned = skinned.filter_map(|node| node.get("mesh")?.whole());
         let skinned: BTreeSet<usize> = skinned.collect();
 
@@ -132,9 +134,4 @@ fn materials_of_vrm(root: &Object) -> Vec<bool> {
         is_other("_OutlineWidthMode", 0) || is_other("_CullMode", CULL_BACK)
     };
     properties.map(shows_backs).collect()
-}
-
-/// The elements of an array of the file.
-fn all<'a>(root: &Object<'a>, name: &str) -> impl Iterator<Item = Value<'a>> {
-    root.value(name).into_iter().flat_map(Value::elements)
 }

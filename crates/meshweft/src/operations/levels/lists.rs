@@ -37,7 +37,10 @@ impl LevelLists {
             orders: BTreeMap::new(),
             staying: Vec::new(),
         };
-        lists.find_bands(entries);
+        // Orders may look at the numbers that vertices will have, and bands at orders.
+        if !options.keep_vertex_order {
+            lists.find_bands(entries);
+        }
 
         // Each list on its own.
         let (orders, meshes) = (&lists.orders, &mut lists.meshes);
@@ -66,10 +69,14 @@ impl LevelLists {
             false => drop(parallel::map(jobs, job)),
         }
         shared.finish();
+        if !options.keep_vertex_order {
+            lists.find_bands(entries);
+        }
+        lists.count_needed_vertices(entries);
         lists
     }
 
-    /// Finds the order of each group of vertices, and how many each level needs.
+    /// Finds the order of each group of vertices.
     fn find_bands(&mut self, entries: &[MeshEntry]) {
         let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (mesh, entry) in entries.iter().enumerate() {
@@ -104,11 +111,15 @@ impl LevelLists {
         let stays = |mesh: &usize| levels_of.contains_key(mesh);
         let staying = staying.into_iter().flat_map(|(_, meshes)| meshes);
         let staying = staying.filter(stays).collect();
+        (self.orders, self.staying) = (orders, staying);
+    }
 
-        // How far into the vertex views each level reaches.
+    /// Finds how far into the vertex views each level reaches.
+    fn count_needed_vertices(&mut self, entries: &[MeshEntry]) {
         for levels in &mut self.meshes {
             let entry = &entries[levels.mesh];
-            let old_to_new = orders
+            let old_to_new = self
+                .orders
                 .get(&entry.vertex_group)
                 .map(|order| order.permutation().old_to_new());
             let number = |vertex: u32| match &old_to_new {
@@ -132,7 +143,6 @@ impl LevelLists {
                 before = Some(level.vertices);
             }
         }
-        (self.orders, self.staying) = (orders, staying);
     }
 
     /// Adds the levels, and puts the vertices in bands; or changes nothing.

@@ -24,6 +24,10 @@ pub struct LevelsOptions {
     /// Whether levels go on where only vertices without a partner on the other side of a seam are left: their texture
     /// coordinates and normals then change.
     pub cross_seams: bool,
+    /// Whether the vertices stay where they are. Those of a coarse level are then not the first ones, and a reader needs all for
+    /// the first picture. In groups of more than 65,536 vertices, which some cards transform in blocks of that many, the full mesh
+    /// takes up to three times as many invocations with its vertices in bands.
+    pub keep_vertex_order: bool,
     /// What differences in attributes count.
     pub weights: AttributeWeights,
     /// From how many points of either surface the error of each level is measured, of all objects together; 0 takes the
@@ -43,6 +47,7 @@ impl Default for LevelsOptions {
             lock_border: false,
             drop_parts: true,
             cross_seams: false,
+            keep_vertex_order: false,
             weights: AttributeWeights::default(),
             samples: 100_000,
             optimizer: Optimizer::default(),

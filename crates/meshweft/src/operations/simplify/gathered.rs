@@ -38,6 +38,13 @@ pub(super) struct Side {
     kind: u32,
 }
 
+impl Side {
+    /// Equal for sides that nothing keeps apart but what they store.
+    pub(super) fn part(self) -> (u32, u32) {
+        (self.mesh, self.kind)
+    }
+}
+
 /// A face of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct MeshFace {

@@ -7,6 +7,7 @@ use super::reduced_mesh::{ReducedMesh, selected};
 use crate::files::{Document, MeshEntry};
 use crate::geometry::double::{Bounds, dot, sub, widened};
 use crate::geometry::{Distances, Surface, deviation};
+use crate::index::index32;
 use crate::progressive::{Collapses, ProgressiveMesh, Walk};
 
 /// An object at all its resolutions.
@@ -98,15 +99,50 @@ impl ProgressiveObject {
 
     /// How far the level of a walk is from the object, from so many points of both.
     ///
+    /// Of several parts (materials, primitives) each is also measured on its own: where two lie in one plane, their border is
+    /// seen and the surface does not move. The greatest distance is that of any.
+    ///
     /// # Complexity
-    /// That of [`deviation`].
+    /// That of [`deviation`], twice.
     pub(in crate::operations) fn distances(&self, walk: &Walk<'_>, samples: usize) -> Distances {
+        let all: Vec<u32> = (0..index32(self.gathered.faces.len())).collect();
+        let mut distances = self.distances_of(&all, walk, samples);
+        let parts = self.parts();
+        if parts.len() > 1 {
+            for faces in parts.values() {
+                let share = samples as u128 * faces.len() as u128;
+                let share = share.div_ceil(all.len() as u128);
+                let share = usize::try_from(share).unwrap_or(usize::MAX);
+                let is_left = faces.iter().any(|&face| walk.has(face));
+                distances.max = distances.max.max(match is_left {
+                    true => self.distances_of(faces, walk, share).max,
+                    // It left as a whole, which is not farther than was estimated.
+                    false => f64::from(self.progressive.error(walk.level())),
+                });
+            }
+        }
+        distances
+    }
+
+    /// How far what is left of some faces is from these.
+    fn distances_of(&self, faces: &[u32], walk: &Walk<'_>, samples: usize) -> Distances {
         let source = &self.gathered.mesh;
-        let mut left = Vec::new();
-        walk.emit(&mut left);
-        let surfaces = [source.faces(), &left];
-        let [full, left] = surfaces.map(|faces| Surface::new(source.positions(), faces));
+        let full = faces.iter().map(|&face| source.faces()[face as usize]);
+        let left = faces.iter().filter(|&&face| walk.has(face));
+        let left = left.map(|&face| walk.face(face));
+        let (full, left): (Vec<_>, Vec<_>) = (full.collect(), left.collect());
+        let [full, left] = [&full, &left].map(|faces| Surface::new(source.positions(), faces));
         deviation(&full, &left, samples).two_sided
+    }
+
+    /// The faces of each part, by their places.
+    fn parts(&self) -> BTreeMap<(u32, u32), Vec<u32>> {
+        let mut parts: BTreeMap<(u32, u32), Vec<u32>> = BTreeMap::new();
+        for (place, face) in (0..).zip(self.gathered.mesh.faces()) {
+            let part = self.gathered.sides[face[0] as usize].part();
+            parts.entry(part).or_default().push(place);
+        }
+        parts
     }
 }
 

@@ -165,6 +165,7 @@ impl RemovalCosts {
 
         // Attributes count as a distance at right angles.
         let mut difference = 0.0;
+        let mut border_distance = 0.0_f64;
         if !rest.is_seamless() || self.sides.lengths.is_some() {
             let Some(price) = self.sides.pair(rest, &self.fan, to, &mut self.pairs) else {
                 return false;
@@ -173,8 +174,17 @@ impl RemovalCosts {
             let there = |it: &Lengths| it.difference(rest, &self.fan, to, step, &self.pairs);
             difference = lengths.map_or(0.0, there).max(price);
             found.base += 0.5 * self.fan.double_area * difference * difference;
+
+            // Between two parts something shows, as it does at an open border.
+            if let Some(ends) = self.sides.ends_of_border(rest, &self.fan)
+                && let [Some(first), Some(last)] = ends.map(|end| self.fan.spoke(end))
+            {
+                let (square, length) = border(first, last);
+                found.base += square * length * dot(step, step).sqrt();
+                border_distance = square.sqrt();
+            }
         }
-        found.distance = found.distance.hypot(difference);
+        found.distance = found.distance.max(border_distance).hypot(difference);
 
         let far = f64::from(self.history[point as usize]) + found.distance;
         if far > self.most_error {

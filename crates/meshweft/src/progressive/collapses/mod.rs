@@ -6,7 +6,7 @@
 //! Simplification Using Quadric Error Metrics*, 1997, doi:10.1145/258734.258849, without memory as by
 //! P. Lindstrom, G. Turk: *Fast and Memory Efficient Polygonal Simplification*, 1998,
 //! doi:10.1109/VISUAL.1998.745314), how far the point will be from the faces that stay, and how far the
-//! surface there was moved before. Effort `best` also has *witnesses*: points that left stay with the
+//! surface there was moved before. A border, open or between two parts (materials, primitives), counts by how far it moves itself. Effort `best` also has *witnesses*: points that left stay with the
 //! nearest face, and their distances count.
 //!
 //! Read `build` first, the loop. `remaining` is the mesh that gets smaller, `fan` what is around a point,

@@ -67,6 +67,21 @@ impl SidePairing {
         self.named_as.is_empty() || self.named_as[a as usize] == self.named_as[b as usize]
     }
 
+    /// The neighbours to which borders between parts go from the point of a fan, if just two do.
+    pub(super) fn ends_of_border(&self, rest: &RemainingMesh<'_>, fan: &Fan) -> Option<[u32; 2]> {
+        if self.named_as.is_empty() {
+            return None;
+        }
+        let mut ends = fan.faces.iter().filter_map(|face| {
+            let end = face.ring[1];
+            let next = fan.faces.iter().find(|next| next.ring[0] == end)?;
+            let sides = [face, next].map(|face| rest.side(face.corner));
+            (!self.are_named_alike(sides[0], sides[1])).then_some(end)
+        });
+        let two = [ends.next()?, ends.next()?];
+        ends.next().is_none().then_some(two)
+    }
+
     /// How much two vertices differ, as a length.
     fn difference(&self, a: u32, b: u32) -> f64 {
         let difference = self.lengths.as_ref().map_or(0.0, |it| it.between(a, b));

@@ -243,3 +243,51 @@ fn a_vertex_does_not_go_to_another_part() {
         }
     });
 }
+
+/// A flat square of another part in the middle of a flat sheet keeps its outline as long as no error is allowed: in one
+/// plane all surfaces are the same, and only the border between the parts tells them apart.
+#[test]
+fn a_part_in_the_plane_of_another_keeps_its_outline() {
+    let places = (0_u8..81).map(|v| [f32::from(v % 9), f32::from(v / 9), 0.0]);
+    let sheet = Mesh::new(places.collect::<Vec<_>>(), grid(8, 8)).unwrap();
+    let is_inside = |corner: usize| {
+        let face = sheet.faces()[corner / 3];
+        let center = |axis: usize| {
+            let at = face.map(|vertex| sheet.positions()[vertex as usize][axis]);
+            at.iter().sum::<f32>() / 3.0
+        };
+        [0, 1]
+            .iter()
+            .all(|&axis| (2.0..6.0).contains(&center(axis)))
+    };
+    let (mesh, sides) = split(&sheet, |corner| u32::from(is_inside(corner)));
+    let name = Semantic::Other("part".into());
+    let info = AttributeInfo::new(name, Domain::Vertex, 1, ComponentType::U32);
+    let parts = Attribute::new(info, Values::U32(sides.clone()));
+    for effort in EFFORTS {
+        let collapses = Collapses {
+            effort,
+            error: 1e-3,
+            ..Collapses::default()
+        };
+        let progressive = collapses
+            .build(&mesh, std::slice::from_ref(&parts))
+            .unwrap();
+        let faces = coarsest(&progressive);
+        let area_of = |part: u32| -> f32 {
+            let own = faces.iter().filter(|face| sides[face[0] as usize] == part);
+            let areas = own.map(|face| {
+                let [a, b, c] = face.map(|vertex| mesh.positions()[vertex as usize]);
+                let [x, y] = [0, 1].map(|axis| [b[axis] - a[axis], c[axis] - a[axis]]);
+                (x[0] * y[1] - x[1] * y[0]) / 2.0
+            });
+            areas.sum()
+        };
+        assert_eq!([area_of(0), area_of(1)], [48.0, 16.0], "{effort:?}");
+        assert!(
+            faces.len() <= 12,
+            "{effort:?}: {} faces are left",
+            faces.len()
+        );
+    }
+}
