@@ -151,3 +151,75 @@ fn within_faces(objects: &[Budgeted<'_>], most: usize) -> Vec<usize> {
     }
     chosen
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Mesh;
+    use crate::progressive::Collapses;
+    use crate::progressive::made::grid;
+
+    /// A sheet with waves of this height.
+    fn sheet(side: u8, height: f32) -> ProgressiveMesh {
+        let row = side + 1;
+        let place = |v: u16| {
+            let [x, y] = [v % u16::from(row), v / u16::from(row)].map(f32::from);
+            [x, y, height * (0.9 * x).sin() * (0.7 * y).cos()]
+        };
+        let positions: Vec<[f32; 3]> = (0..u16::from(row) * u16::from(row)).map(place).collect();
+        let mesh = Mesh::new(positions, grid(side.into(), side.into())).unwrap();
+        Collapses::default().build(&mesh, &[]).unwrap()
+    }
+
+    #[test]
+    fn the_largest_error_of_any_object_is_the_least_that_will_do() {
+        let meshes = [sheet(9, 0.3), sheet(5, 2.0), sheet(7, 0.0)];
+        // Exact in binary, so that nothing is rounded.
+        let objects: Vec<Budgeted<'_>> = meshes
+            .iter()
+            .zip([1.0, 0.25, 4.0])
+            .map(|(progressive, scale)| Budgeted {
+                progressive,
+                scale,
+                diagonal: 1000.0,
+            })
+            .collect();
+        let faces_at = |levels: &[usize]| -> usize {
+            let all = objects.iter().zip(levels);
+            all.map(|(object, &level)| object.faces(level)).sum()
+        };
+        let total = faces_at(&[0; 3]);
+        assert_eq!(total, 2 * (81 + 25 + 49));
+        let error_of = |(object, &level): (&Budgeted<'_>, &usize)| {
+            let own = object.progressive.error(level);
+            f64::from(own) * object.scale
+        };
+        let fewest = faces_at(&within_faces(&objects, 0));
+        for most in fewest..=total {
+            let levels = within_faces(&objects, most);
+            assert!(faces_at(&levels) <= most);
+            let errors = objects.iter().zip(&levels).map(error_of);
+            let error = errors.fold(0.0, f64::max);
+
+            // All that is less far off is too much, and nothing left that need not.
+            let nearer = |object: &Budgeted<'_>| {
+                let all = 0..=object.progressive.last_level();
+                let is_nearer = |level: &usize| error_of((object, level)) < error;
+                all.rev().find(is_nearer)
+            };
+            if let Some(nearer) = objects.iter().map(nearer).collect::<Option<Vec<_>>>() {
+                assert!(
+                    faces_at(&nearer) > most,
+                    "{most} faces within less than {error}"
+                );
+            }
+            let most_that_leave = objects.iter().zip(&levels).map(|(object, &level)| {
+                let finer = level.saturating_sub(1);
+                object.faces(finer) - object.faces(level)
+            });
+            let step = most_that_leave.max().unwrap_or(0);
+            assert!(faces_at(&levels) + step.max(1) > most, "{most}: {levels:?}");
+        }
+        assert_eq!(within_faces(&objects, total), [0; 3]);
+    }
+}

@@ -1,12 +1,12 @@
 //! One object at its levels.
 
+use super::bands::GroupBands;
 use super::options::{LevelsError, LevelsOptions, LevelsOptionsError};
 use crate::files::{Document, MeshEntry};
 use crate::operations::indices::{IndexOptions, optimize_indices_with};
 use crate::operations::optimize::{OptimizeError, optimize};
 use crate::operations::options::Options;
 use crate::operations::simplify::{ProgressiveObject, ReducedMesh};
-use crate::permutation::VertexOrder;
 use crate::progress::Progress;
 use crate::progressive::Walk;
 
@@ -51,12 +51,12 @@ pub(super) fn levels_of_object(
     levels
 }
 
-/// Puts the faces of a level in a good order, for vertices that will be in `order`; those of a mesh whose faces must stay
+/// Puts the faces of a level in a good order, for vertices that will be in these bands; those of a mesh whose faces must stay
 /// are left in that of the file.
 pub(super) fn put_list_in_order(
     entry: &MeshEntry,
-    faces: &mut Vec<[u32; 3]>,
-    order: Option<&VertexOrder>,
+    faces: &mut [[u32; 3]],
+    bands: Option<&GroupBands>,
     options: &LevelsOptions,
     progress: &dyn Progress,
 ) {
@@ -72,17 +72,15 @@ pub(super) fn put_list_in_order(
         keep_corners: optimizer.keep_corners || !entry.corners_turnable,
         ..IndexOptions::default()
     };
-    if let Some(order) = order {
-        *faces = order.renumber(faces);
+    if let Some(bands) = bands {
+        bands.renumber(faces);
     }
     let vertex_count = entry.mesh.vertex_count();
     let corners = faces.as_flattened_mut();
     let ordered = optimize_indices_with(corners, vertex_count, &options, progress);
     ordered.expect("the corners are vertices of the mesh");
-    if let Some(order) = order {
-        for vertex in faces.as_flattened_mut() {
-            *vertex = order.new_to_old()[*vertex as usize];
-        }
+    if let Some(bands) = bands {
+        bands.restore(faces);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::bands::GroupBands;
 use super::coarser::put_list_in_order;
 use super::made::MadeLevels;
 use super::options::LevelsOptions;
@@ -10,16 +11,14 @@ use crate::files::{Document, Edit, FileError, MeshEntry, NewLevel, NewLevels, No
 use crate::mesh::Mesh;
 use crate::operations::shared_progress::SharedProgress;
 use crate::operations::stage::Stage;
-use crate::order::vertex_bands;
 use crate::parallel;
-use crate::permutation::VertexOrder;
 
 /// What is to be added to a document.
 pub(super) struct LevelLists {
     /// Those of each mesh that gets coarser.
     pub(super) meshes: Vec<NewLevels>,
     /// The order of each group of vertices that moves.
-    orders: BTreeMap<usize, VertexOrder>,
+    bands: BTreeMap<usize, GroupBands>,
     /// Meshes with levels whose vertices stay.
     staying: Vec<usize>,
 }
@@ -34,7 +33,7 @@ impl LevelLists {
     ) -> Self {
         let mut lists = Self {
             meshes: in_order_of_file(entries, made),
-            orders: BTreeMap::new(),
+            bands: BTreeMap::new(),
             staying: Vec::new(),
         };
         // Orders may look at the numbers that vertices will have, and bands at orders.
@@ -43,7 +42,7 @@ impl LevelLists {
         }
 
         // Each list on its own.
-        let (orders, meshes) = (&lists.orders, &mut lists.meshes);
+        let (bands, meshes) = (&lists.bands, &mut lists.meshes);
         let jobs = meshes.iter_mut().flat_map(|levels| {
             let entry = &entries[levels.mesh];
             let stored = levels.levels.iter_mut().filter_map(|it| it.faces.as_mut());
@@ -54,13 +53,8 @@ impl LevelLists {
         let shared = SharedProgress::new(stage, total);
         let job = |(entry, faces): (&MeshEntry, &mut Vec<[u32; 3]>)| {
             let part = shared.part(faces.len());
-            put_list_in_order(
-                entry,
-                faces,
-                orders.get(&entry.vertex_group),
-                options,
-                &part,
-            );
+            let bands = bands.get(&entry.vertex_group);
+            put_list_in_order(entry, faces, bands, options, &part);
             part.finish();
         };
         match shared.is_timed() {
@@ -89,7 +83,7 @@ impl LevelLists {
             .partition(|(_, meshes)| meshes.iter().all(|&mesh| entries[mesh].vertices_movable));
 
         // Vertices that a coarse level uses come before all others.
-        let orders = parallel::map(movable, |(group, meshes)| {
+        let bands = parallel::map(movable, |(group, meshes)| {
             let counts = meshes.iter().filter_map(|mesh| levels_of.get(mesh));
             let count = counts.map(|it| it.levels.len()).max().unwrap_or(0);
             let level = |number: usize| -> Vec<[u32; 3]> {
@@ -105,25 +99,22 @@ impl LevelLists {
             let levels: Vec<Faces<'_>> = levels
                 .map(|faces| Faces::of_checked(faces, vertex_count))
                 .collect();
-            (group, vertex_bands(&levels))
+            (group, GroupBands::new(&levels))
         });
-        let orders: BTreeMap<usize, VertexOrder> = orders.into_iter().collect();
+        let bands = bands.into_iter().collect();
         let stays = |mesh: &usize| levels_of.contains_key(mesh);
         let staying = staying.into_iter().flat_map(|(_, meshes)| meshes);
         let staying = staying.filter(stays).collect();
-        (self.orders, self.staying) = (orders, staying);
+        (self.bands, self.staying) = (bands, staying);
     }
 
     /// Finds how far into the vertex views each level reaches.
     fn count_needed_vertices(&mut self, entries: &[MeshEntry]) {
         for levels in &mut self.meshes {
             let entry = &entries[levels.mesh];
-            let old_to_new = self
-                .orders
-                .get(&entry.vertex_group)
-                .map(|order| order.permutation().old_to_new());
-            let number = |vertex: u32| match &old_to_new {
-                Some(old_to_new) => old_to_new[vertex as usize],
+            let bands = self.bands.get(&entry.vertex_group);
+            let number = |vertex: u32| match bands {
+                Some(bands) => bands.number(vertex),
                 None => vertex,
             };
             let needed = |faces: &[[u32; 3]]| {
@@ -147,17 +138,17 @@ impl LevelLists {
 
     /// Adds the levels, and puts the vertices in bands; or changes nothing.
     pub(super) fn apply(&self, document: &mut Document) -> Result<(), FileError> {
-        let entries = document.meshes();
-        let first = |group: usize| entries.iter().position(|it| it.vertex_group == group);
-        let orders = self.orders.iter();
-        let orders = orders.filter_map(|(&group, order)| Some((first(group)?, order)));
-        let orders: Vec<(usize, &VertexOrder)> = orders.collect();
+        let mut member_of: BTreeMap<usize, usize> = BTreeMap::new();
+        for levels in &self.meshes {
+            let group = document.meshes()[levels.mesh].vertex_group;
+            member_of.insert(group, levels.mesh);
+        }
 
         // What can be refused comes first.
         let meshes = &self.meshes;
         document.edit(Edit::Levels { meshes })?;
-        for (mesh, order) in orders {
-            document.edit(Edit::order(mesh, None, order))?;
+        for (group, bands) in &self.bands {
+            document.edit(Edit::order(member_of[group], None, bands.order()))?;
         }
         Ok(())
     }
@@ -168,8 +159,8 @@ impl LevelLists {
         let drawn = entries.iter().enumerate().map(|(mesh, entry)| {
             let levels = levels_of.get(&mesh).map_or(&[][..], |it| &it.levels);
             let mut faces = faces_at(entry, levels, number).to_vec();
-            if let Some(order) = self.orders.get(&entry.vertex_group) {
-                order.renumber_in_place(&mut faces);
+            if let Some(bands) = self.bands.get(&entry.vertex_group) {
+                bands.renumber(&mut faces);
             }
             let drawn = Mesh::connectivity_only(entry.mesh.vertex_count(), faces);
             MeshEntry {

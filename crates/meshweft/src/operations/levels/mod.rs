@@ -5,6 +5,7 @@
 //! one object.
 
 mod apart;
+mod bands;
 mod budget;
 mod build;
 mod coarser;
