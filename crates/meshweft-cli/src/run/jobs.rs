@@ -122,7 +122,7 @@ impl Jobs {
 const LEVEL: &str = "_LOD";
 
 impl Jobs {
-    /// As [`new`](Self::new), but each job writes so many files: the names of levels 1, 2 … ; the first one is the target.
+    /// As [`new`](Self::new), but each job writes `count` files, one for each level; that of level 1 is the target.
     ///
     /// # Errors
     /// Also that one of them is an input, or the target of two jobs.

@@ -16,7 +16,7 @@ pub(super) struct Stage<'a> {
 }
 
 impl<'a> Stage<'a> {
-    /// Of so many pieces of work.
+    /// With `total` pieces of work.
     pub(super) fn new(caller: &'a dyn Progress, start: f64, end: f64, total: usize) -> Self {
         Self {
             caller,
@@ -28,7 +28,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// A part of it, from one fraction of the stage to another, of so many pieces of work.
+    /// A part of it, from one fraction of the stage to another, with `total` pieces of work.
     pub(super) fn part(&self, start: f64, end: f64, total: usize) -> Stage<'_> {
         Stage::new(self, start, end, total)
     }

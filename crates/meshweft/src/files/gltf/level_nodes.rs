@@ -166,15 +166,7 @@ impl<'a> LevelNodes<'a> {
             match (&*name, mesh) {
                 ("name" | "children" | "extras", _) => {}
                 ("mesh", Some(mesh)) => members.push(format!(r#""mesh":{mesh}"#)),
-                ("extensions", _) => {
-                    let kept = value.members().filter(|(name, _)| name != NAME);
-                    let kept: Vec<String> = kept
-                        .map(|(name, value)| member(&name, value.raw()))
-                        .collect();
-                    if !kept.is_empty() {
-                        members.push(format!(r#""extensions":{{{}}}"#, kept.join(",")));
-                    }
-                }
+                ("extensions", _) => members.extend(extensions_without(value, &[NAME])),
                 _ => members.push(member(&name, value.raw())),
             }
         }
@@ -206,6 +198,20 @@ impl<'a> LevelNodes<'a> {
 /// A member of an object.
 pub(super) fn member(name: &str, raw: &str) -> String {
     format!("{}:{raw}", serde_json::Value::from(name))
+}
+
+/// The members of an object but those of these names, each with its text.
+pub(super) fn members_without(object: Value<'_>, left_out: &[&str]) -> Vec<String> {
+    let kept = object.members();
+    let kept = kept.filter(|(name, _)| !left_out.contains(&&**name));
+    kept.map(|(name, value)| member(&name, value.raw()))
+        .collect()
+}
+
+/// The member with all extensions but those of these names, if others are left.
+pub(super) fn extensions_without(extensions: Value<'_>, left_out: &[&str]) -> Option<String> {
+    let kept = members_without(extensions, left_out);
+    (!kept.is_empty()).then(|| format!(r#""extensions":{{{}}}"#, kept.join(",")))
 }
 
 /// The member that says what a level of this mesh or node is called, if that has a name.

@@ -9,7 +9,9 @@ use super::GltfFile;
 use super::culling;
 use super::growth::Growth;
 use super::json::Value;
-use super::level_nodes::{LevelNodes, LeveledMesh, level_name, member};
+use super::level_nodes::{
+    LevelNodes, LeveledMesh, extensions_without, level_name, member, members_without,
+};
 use super::levels::{EXTRAS, NAME};
 use super::movable::PrimitiveNumber;
 use super::new_meshes::NewMeshes;
@@ -189,11 +191,8 @@ impl SourceMesh<'_> {
 
         // The names of morph targets are in its extras.
         let extras = self.value.get("extras").filter(|extras| extras.is_object());
-        let extras = extras.into_iter().flat_map(Value::members);
-        let extras = extras.filter(|(name, _)| name != EXTRAS);
-        let mut extras: Vec<String> = extras
-            .map(|(name, value)| member(&name, value.raw()))
-            .collect();
+        let extras = extras.map(|extras| members_without(extras, &[EXTRAS]));
+        let mut extras = extras.unwrap_or_default();
         extras.push(member(EXTRAS, said));
         members.push(format!(r#""extras":{{{}}}"#, extras.join(",")));
         members.join(",")
@@ -205,24 +204,9 @@ fn primitive_text(primitive: Value<'_>, indices: Option<usize>) -> String {
     let Some(indices) = indices else {
         return primitive.raw().to_owned();
     };
-    let mut members = Vec::new();
-    for (name, value) in primitive.members() {
-        match &*name {
-            "indices" => {}
-            "extensions" => {
-                let kept = value
-                    .members()
-                    .filter(|(name, _)| !OF_FACES.contains(&&**name));
-                let kept: Vec<String> = kept
-                    .map(|(name, value)| member(&name, value.raw()))
-                    .collect();
-                if !kept.is_empty() {
-                    members.push(format!(r#""extensions":{{{}}}"#, kept.join(",")));
-                }
-            }
-            _ => members.push(member(&name, value.raw())),
-        }
-    }
+    let mut members = members_without(primitive, &["indices", "extensions"]);
+    let extensions = primitive.get("extensions");
+    members.extend(extensions.and_then(|all| extensions_without(all, &OF_FACES)));
     members.push(format!(r#""indices":{indices}"#));
     format!("{{{}}}", members.join(","))
 }

@@ -56,9 +56,10 @@ fn reads_of(number: PrimitiveNumber, primitive: Value<'_>) -> PrimitiveReads<'_>
 
 /// The accessors with the matrices of joints, and with what places instances.
 pub(super) fn matrices(root: &Object) -> Vec<usize> {
-    let elements = |name| root.value(name).into_iter().flat_map(Value::elements);
-    let skins = elements("skins").filter_map(|skin| skin.get("inverseBindMatrices")?.whole());
-    let instances = elements("nodes").filter_map(|node| {
+    let skins = root
+        .elements("skins")
+        .filter_map(|skin| skin.get("inverseBindMatrices")?.whole());
+    let instances = root.elements("nodes").filter_map(|node| {
         let extensions = node.get("extensions")?;
         extensions.get("EXT_mesh_gpu_instancing")?.get("attributes")
     });

@@ -109,7 +109,7 @@ pub(super) fn goals_in_faces(goals: &LevelGoals, total: usize) -> Vec<usize> {
     }
 }
 
-/// The levels of least error that have at most so many faces together, or the coarsest ones.
+/// The levels of least error that have at most `most` faces together, or the coarsest ones.
 fn within_faces(objects: &[Budgeted<'_>], most: usize) -> Vec<usize> {
     let levels = |error: u32| -> Vec<usize> {
         let error = f32::from_bits(error);

@@ -5,6 +5,7 @@ use super::lists::LevelLists;
 use super::made::MadeLevels;
 use super::options::{LevelsError, LevelsOptions};
 use super::report::{LevelsParts, LevelsReport, counts_of};
+use crate::cache::CacheModel;
 use crate::files::{Document, Format, Note, Place};
 use crate::operations::converted::converted;
 use crate::operations::counts::Counts;
@@ -76,8 +77,7 @@ pub fn levels(
     let counts = (0..=made.level_count())
         .map(|number| counts_of(&lists.drawn_at(document.meshes(), number), options))
         .collect::<Vec<_>>();
-    let before = counts_of(document.meshes(), options);
-    made.notes.extend(note_of_invocations(&before, &counts[0]));
+    made.notes.extend(note_of_invocations(document, &counts[0]));
     let names = made.names(document);
     lists.apply(document)?;
     of_file.notes.clear();
@@ -96,9 +96,11 @@ pub fn levels(
 
 /// Says that a card transforms more vertices of the full mesh than before, if it does: it does where more than 65,536 vertices
 /// were in blocks.
-fn note_of_invocations(before: &Counts, after: &Counts) -> Option<Note> {
-    let [before, after] = [before, after].map(|counts| Some(counts.card?.invocations));
-    let (before, after) = (before?, after?);
+fn note_of_invocations(document: &Document, after: &Counts) -> Option<Note> {
+    let before = Counts::of_each(document.meshes(), &[CacheModel::Nvidia]);
+    let before = before.iter().filter_map(|counts| counts.card);
+    let before: u64 = before.map(|card| card.invocations).sum();
+    let after = after.card?.invocations;
     let is_more = after > before + before / 50;
     is_more.then(|| {
         let text = format!(

@@ -19,7 +19,8 @@ pub(super) struct ObjectLevel {
     pub(super) error: f64,
 }
 
-/// The levels of an object, whose numbers of removals rise; none where nothing has left. Each is measured from so many points.
+/// The levels of an object, whose numbers of removals rise; none where nothing has left. `samples` is the number of points that each
+/// is measured from.
 pub(super) fn levels_of_object(
     document: &Document,
     meshes: &[usize],

@@ -97,7 +97,7 @@ impl ProgressiveObject {
         radii
     }
 
-    /// How far the level of a walk is from the object, from so many points of both.
+    /// How far the level of a walk is from the object; `samples` is the number of points of both surfaces.
     ///
     /// Of several parts (materials, primitives) each is also measured on its own: where two lie in one plane, their border is
     /// seen and the surface does not move. The greatest distance is that of any.
