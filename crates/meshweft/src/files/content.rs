@@ -7,7 +7,7 @@ use super::edit::NewValue;
 use super::entry::MeshEntry;
 use super::error::{FileErrorKind, Place, Problem};
 use super::level_bytes::LevelBytes;
-use super::new_levels::NewLevels;
+use super::new_levels::{NewLevels, VerticesOfLevels};
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::placing::{Beside, Placed};
@@ -90,6 +90,10 @@ pub(super) trait Content: Send + Sync + fmt::Debug {
     /// For each mesh, whether all that draws its faces has the same vertices.
     fn draws_alike(&self) -> Vec<bool> {
         vec![true; self.meshes().len()]
+    }
+    /// For each mesh, which vertices its levels of detail can have.
+    fn vertices_of_levels(&self) -> Vec<VerticesOfLevels> {
+        vec![VerticesOfLevels::OfMesh; self.meshes().len()]
     }
     /// For each mesh, the largest scale that it is drawn with; 1 where none is known.
     fn drawn_scales(&self) -> Vec<f64> {

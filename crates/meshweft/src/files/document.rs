@@ -14,6 +14,7 @@ use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::level_bytes::LevelBytes;
 use super::links::Stamp;
+use super::new_levels::VerticesOfLevels;
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
@@ -396,6 +397,13 @@ impl Document {
     /// Time O(bytes of text).
     pub(crate) fn draws_alike(&self) -> Vec<bool> {
         self.content.draws_alike()
+    }
+
+    /// For each mesh, which vertices its levels of detail can have.
+    ///
+    /// Time O(bytes of text).
+    pub(crate) fn vertices_of_levels(&self) -> Vec<VerticesOfLevels> {
+        self.content.vertices_of_levels()
     }
 
     /// Where in its files, as they are now, each level of detail has what it needs.

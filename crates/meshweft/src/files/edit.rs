@@ -77,7 +77,8 @@ pub enum Edit<'a> {
     /// the extension shows what it showed before.
     ///
     /// What is below a node that is stood in for is copied with it as far as it draws something, and animations move copies
-    /// alike. A primitive that gets no levels is as it is in all levels of its glTF mesh.
+    /// alike. A primitive that gets no levels is as it is in all levels of its glTF mesh. The levels of a primitive without an index
+    /// list have [copies](NewLevels::copies) of its vertices.
     Levels {
         /// The levels of each mesh.
         meshes: &'a [NewLevels],

@@ -75,6 +75,7 @@ pub use error::{FileError, FileErrorKind, Place};
 pub use format::Format;
 pub use gltf::{external_buffers, shared_buffers};
 pub(crate) use level_bytes::{FileBytes, LevelBytes};
+pub(crate) use new_levels::VerticesOfLevels;
 pub use new_levels::{NewLevel, NewLevels, screen_coverage};
 pub use new_mesh::{NewMesh, NewVertices};
 pub use note::Note;

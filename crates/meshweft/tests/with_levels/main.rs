@@ -11,6 +11,7 @@ mod left_out;
 mod made;
 mod order;
 mod simplify;
+mod without_indices;
 mod written;
 
 use meshweft::CacheModel;

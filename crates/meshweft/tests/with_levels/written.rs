@@ -2,18 +2,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use meshweft::files::Document;
+use meshweft::files::{Document, Edit};
 use meshweft::operations::{
     CullOptions, LevelGoals, LevelsError, LevelsOptions, LevelsReport, Options, compare,
     cull_build, inspect, levels, levels_apart, optimize,
 };
+use meshweft::{Permutation, VertexOrder};
 use serde_json::{Value, json};
 
 use crate::MODELS;
 use crate::builder::{Builder, F32, U16, glb};
 use crate::made::{Sheet, open, two_primitives};
 
-fn options(ratios: &[f64]) -> LevelsOptions {
+pub(crate) fn options(ratios: &[f64]) -> LevelsOptions {
     let mut options = LevelsOptions::default();
     options.goals = LevelGoals::Ratios(ratios.to_vec());
     options.samples = 300;
@@ -21,7 +22,7 @@ fn options(ratios: &[f64]) -> LevelsOptions {
 }
 
 /// The file with levels, read again, after all that holds for every file was checked.
-fn with_levels(bytes: &[u8], options: &LevelsOptions) -> (Vec<u8>, LevelsReport) {
+pub(crate) fn with_levels(bytes: &[u8], options: &LevelsOptions) -> (Vec<u8>, LevelsReport) {
     let source = open(bytes);
     let mut document = open(bytes);
     let report = levels(&mut document, options, &()).unwrap();
@@ -45,7 +46,7 @@ fn with_levels(bytes: &[u8], options: &LevelsOptions) -> (Vec<u8>, LevelsReport)
     (written, report)
 }
 
-fn json_of(glb: &[u8]) -> Value {
+pub(crate) fn json_of(glb: &[u8]) -> Value {
     let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
     serde_json::from_slice(&glb[20..20 + length]).unwrap()
 }
@@ -72,7 +73,7 @@ fn assert_is_kept(before: &Value, after: &Value, pointer: &str) {
 }
 
 /// The vertices of each level, by group, come before all that finer levels add.
-fn assert_in_bands(document: &Document) {
+pub(crate) fn assert_in_bands(document: &Document) {
     let entries = document.meshes();
     let deepest = entries.iter().filter_map(|it| Some(it.level?.number)).max();
     let mut used: BTreeMap<(usize, usize), BTreeSet<u32>> = BTreeMap::new();
@@ -102,8 +103,26 @@ fn assert_in_bands(document: &Document) {
     }
 }
 
+/// What is said of how many vertices each level needs holds.
+fn assert_said_is_true(document: &Document) {
+    let json = json_of(&document.to_main_bytes().unwrap());
+    let meshes = json["meshes"].as_array().unwrap().iter();
+    let said = meshes.flat_map(|mesh| {
+        let said = &mesh["extras"]["MESHWEFT_level"]["vertices"];
+        let primitives = mesh["primitives"].as_array().unwrap().len();
+        (0..primitives).map(move |primitive| said[primitive].as_u64())
+    });
+    let said: Vec<Option<u64>> = said.collect();
+    assert_eq!(said.len(), document.meshes().len());
+    for (entry, said) in document.meshes().iter().zip(said) {
+        assert_eq!(said.is_some(), entry.level.is_some());
+        let largest = entry.mesh.faces().as_flattened().iter().max();
+        assert!(said.is_none_or(|said| u64::from(*largest.unwrap()) < said));
+    }
+}
+
 /// The area of a sheet's levels seen from above, and that no edge inside it has one face.
-fn assert_whole(document: &Document, side: f32) {
+pub(crate) fn assert_whole(document: &Document, side: f32) {
     let numbers = document
         .meshes()
         .iter()
@@ -177,19 +196,36 @@ fn what_other_jobs_do_leaves_levels_true() {
         level_count: 0,
         ..two_primitives()
     };
-    let (written, _) = with_levels(&sheet.bytes(), &options(&[0.5, 0.2]));
+    let (written, made) = with_levels(&sheet.bytes(), &options(&[0.5, 0.2]));
 
     // Ordered, with tables, again: each keeps what the others wrote.
     let mut document = open(&written);
+    assert_said_is_true(&document);
     optimize(&mut document, &Options::default(), &()).unwrap();
     assert_in_bands(&document);
+    assert_said_is_true(&document);
     assert_whole(&document, 16.0);
     let report = cull_build(&mut document, &CullOptions::default(), &()).unwrap();
     assert!(report.is_changed());
     assert_in_bands(&document);
+    assert_said_is_true(&document);
     assert_whole(&document, 16.0);
     optimize(&mut document, &Options::default(), &()).unwrap();
+    assert_said_is_true(&document);
     assert_whole(&document, 16.0);
+
+    // What moves vertices inside their bands leaves what is said of them true.
+    let mut document = open(&written);
+    let vertex_count = document.meshes()[0].mesh.vertex_count();
+    let used = made.levels.iter().map(|it| it.counts.used_vertices);
+    let ends: BTreeSet<usize> = used.chain([0, vertex_count]).collect();
+    let ends: Vec<usize> = ends.into_iter().collect();
+    let reversed = ends.windows(2).flat_map(|band| (band[0]..band[1]).rev());
+    let reversed = reversed.map(|vertex| u32::try_from(vertex).unwrap());
+    let reversed: VertexOrder = Permutation::new(reversed.collect()).unwrap().into();
+    document.edit(Edit::order(0, None, &reversed)).unwrap();
+    assert_in_bands(&document);
+    assert_said_is_true(&document);
 
     // Tables first.
     let mut document = open(&sheet.bytes());

@@ -23,7 +23,8 @@
 //! where the rest then stands, [`stated_bounds`] has the smallest and largest values.
 //! What is added goes through [`append`]: [`new_meshes`] and [`new_attributes`] make the bytes and
 //! values, [`growth`] has the buffer for them, [`scene`] finds where they are drawn,
-//! [`new_levels`] adds levels of detail, [`level_nodes`] the nodes that draw these, [`additions`] puts values into the text.
+//! [`new_levels`] adds levels of detail, [`level_nodes`] the nodes that draw these, [`vertex_copies`] vertices where
+//! they need their own, [`additions`] puts values into the text.
 //! What is wanted first comes first after [`stream_layout`]: [`stream_order`] says when each buffer view is wanted, by what
 //! [`primitive_reads`] finds and [`drawn_levels`] draws; [`stream_pieces`] moves them, unless something that is not known
 //! names their bytes ([`unknown_names`]). [`level_needs`] says where each level of detail then has its bytes.
@@ -118,6 +119,7 @@ mod tables;
 mod unknown_names;
 mod unlisted;
 mod uri;
+mod vertex_copies;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -131,7 +133,7 @@ use super::entry::MeshEntry;
 use super::error::{FileError, FileErrorKind, Place, Problem};
 use super::format::Format;
 use super::level_bytes::LevelBytes;
-use super::new_levels::NewLevels;
+use super::new_levels::{NewLevels, VerticesOfLevels};
 use super::new_mesh::NewMesh;
 use super::note::Note;
 use super::options::ReadOptions;
@@ -488,6 +490,10 @@ impl Content for GltfFile {
 
     fn draws_alike(&self) -> Vec<bool> {
         self.found_alike()
+    }
+
+    fn vertices_of_levels(&self) -> Vec<VerticesOfLevels> {
+        self.found_vertices_of_levels()
     }
 
     fn add_levels(&mut self, meshes: &[NewLevels]) -> Result<Vec<Note>, Problem> {

@@ -3,6 +3,7 @@
 use serde_json::{Value as NewJson, json};
 
 use super::accessors::{BYTE, FLOAT, SHORT, UNSIGNED_BYTE, UNSIGNED_SHORT};
+use super::stated_bounds::stated_bounds;
 use crate::attribute::{Attribute, AttributeInfo, ComponentType, Domain, Semantic, Values};
 use crate::files::error::FileErrorKind;
 
@@ -14,6 +15,32 @@ pub(super) struct NewAccessor {
     pub(super) bytes: Vec<u8>,
     /// The bytes from one element to the next, if there are some between.
     pub(super) stride: Option<usize>,
+}
+
+impl NewAccessor {
+    /// That of elements with these values, which are no matrices.
+    pub(super) fn new(json: NewJson, values: &Values, components: usize) -> Self {
+        let tight = values.to_le_bytes();
+        let size = values.component_type().size() * components;
+        let stride = size.next_multiple_of(4);
+        if stride == size {
+            return Self {
+                json,
+                bytes: tight,
+                stride: None,
+            };
+        }
+        let mut bytes = Vec::with_capacity(tight.len() / size * stride);
+        for element in tight.chunks_exact(size) {
+            bytes.extend_from_slice(element);
+            bytes.resize(bytes.len().next_multiple_of(4), 0);
+        }
+        Self {
+            json,
+            bytes,
+            stride: Some(stride),
+        }
+    }
 }
 
 /// Whether a primitive may have these attributes together.
@@ -63,9 +90,6 @@ pub(super) fn accessor_of(attribute: &Attribute) -> Result<NewAccessor, FileErro
     let info = &attribute.info;
     let component_type = check(info)?;
     let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][info.components - 1];
-    let tight = attribute.values.to_le_bytes();
-    let size = info.component_type.size() * info.components;
-    let stride = size.next_multiple_of(4);
 
     let mut json = json!({
         "componentType": component_type,
@@ -77,29 +101,14 @@ pub(super) fn accessor_of(attribute: &Attribute) -> Result<NewAccessor, FileErro
     }
     if let Values::F32(values) = &attribute.values {
         check_finite(values, info)?;
-        // Of positions the format asks for the bounds.
-        if info.semantic == Semantic::Position {
-            (json["min"], json["max"]) = bounds(values, info.components);
-        }
     }
-
-    if stride == size {
-        return Ok(NewAccessor {
-            json,
-            bytes: tight,
-            stride: None,
-        });
+    // Of positions the format asks for the bounds.
+    if info.semantic == Semantic::Position
+        && let Some([min, max]) = stated_bounds(&attribute.values, info.components)
+    {
+        (json["min"], json["max"]) = (min, max);
     }
-    let mut bytes = Vec::with_capacity(attribute.len() * stride);
-    for element in tight.chunks_exact(size) {
-        bytes.extend_from_slice(element);
-        bytes.resize(bytes.len().next_multiple_of(4), 0);
-    }
-    Ok(NewAccessor {
-        json,
-        bytes,
-        stride: Some(stride),
-    })
+    Ok(NewAccessor::new(json, &attribute.values, info.components))
 }
 
 /// The number of its component type, if glTF allows it for what it means.
@@ -174,15 +183,4 @@ fn check_finite(values: &[f32], info: &AttributeInfo) -> Result<(), FileErrorKin
         at / info.components
     );
     Err(FileErrorKind::unsupported(text))
-}
-
-/// The smallest and the largest of each component.
-fn bounds(values: &[f32], components: usize) -> (NewJson, NewJson) {
-    let fold = |pick: fn(f32, f32) -> f32, start: f32| -> NewJson {
-        let of = |component: usize| values.iter().skip(component).step_by(components);
-        // As 64-bit numbers, whose text is exact.
-        let each = (0..components).map(|c| f64::from(of(c).copied().fold(start, pick)));
-        each.collect()
-    };
-    (fold(f32::min, f32::MAX), fold(f32::max, f32::MIN))
 }

@@ -1,6 +1,7 @@
 //! Levels of detail of meshes that are there: index lists at the end of a buffer, meshes that draw them, and
 //! nodes that stand in for others (the extension `MSFT_lod`).
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::json;
@@ -15,11 +16,13 @@ use super::level_nodes::{
 use super::levels::{EXTRAS, NAME};
 use super::movable::PrimitiveNumber;
 use super::new_meshes::NewMeshes;
-use super::object::Object;
+use super::object::{Object, primitives_of, primitives_of_mesh};
+use super::vertex_copies::VertexCopier;
 use crate::files::error::{FileErrorKind, Place, Problem};
 use crate::files::new_levels::{NewLevels, screen_coverage};
 use crate::files::note::Note;
 use crate::index::index32;
+use crate::permutation::renumber;
 
 /// Extensions of a primitive that are of its own list of faces.
 const OF_FACES: [&str; 2] = [culling::NAME, "CESIUM_primitive_outline"];
@@ -32,10 +35,14 @@ impl GltfFile {
         let growth = Growth::new(&root, &self.container, &self.buffers);
         let mut new = NewMeshes::new(&root, growth.buffer, growth.start)?;
 
-        // Index lists.
+        // Index lists, and copies of vertices.
         let mut lists = BTreeMap::new();
+        let copier = match meshes.iter().any(|levels| !levels.copies.is_empty()) {
+            true => Some(VertexCopier::new(self, &root)?),
+            false => None,
+        };
         for levels in meshes {
-            lists.insert(levels.mesh, self.lists(levels, &mut new)?);
+            lists.insert(levels.mesh, self.lists(levels, copier.as_ref(), &mut new)?);
         }
 
         // A mesh for each level of a mesh, and nodes that draw it.
@@ -68,16 +75,7 @@ impl GltfFile {
         let Ok(json) = super::read_json(&self.container, &self.options.limits) else {
             return is_alike;
         };
-        let meshes: Vec<Vec<Value<'_>>> = json
-            .root()
-            .get("meshes")
-            .into_iter()
-            .flat_map(Value::elements)
-            .map(|mesh| {
-                let primitives = mesh.get("primitives").into_iter();
-                primitives.flat_map(Value::elements).collect()
-            })
-            .collect();
+        let meshes = primitives_of(json.root());
         let vertices = |number: PrimitiveNumber| {
             let primitive = meshes[number.mesh as usize][number.primitive as usize];
             ["attributes", "targets"].map(|name| primitive.get(name).map(Value::raw))
@@ -90,25 +88,57 @@ impl GltfFile {
         is_alike
     }
 
-    /// Stores the index lists of the levels of a mesh.
+    /// Stores the index lists of the levels of a mesh, and the vertices that they have copies of.
     fn lists<'l>(
         &self,
         levels: &'l NewLevels,
+        copier: Option<&VertexCopier<'_>>,
         new: &mut NewMeshes<'_>,
     ) -> Result<StoredLevels<'l>, Problem> {
         let entries = &self.view.entries;
         let first = entries.first_primitives[levels.mesh];
-        let vertex_count = entries.meshes[levels.mesh].mesh.vertex_count();
+        let mut vertex_count = entries.meshes[levels.mesh].mesh.vertex_count();
         levels
             .check(vertex_count)
             .map_err(|kind| kind.at(Place::Json(first.pointer())))?;
+
+        // The vertices of the primitive, or copies with numbers of their own.
+        if self.has_indices(levels.mesh) != levels.copies.is_empty() {
+            let text = match levels.copies.is_empty() {
+                true => "it has no index list, so its levels need copies of its vertices",
+                false => "it has an index list, so its levels have its own vertices and no copies",
+            };
+            return Err(FileErrorKind::unsupported(text).at(Place::Json(first.pointer())));
+        }
+        let copier = copier.filter(|_| !levels.copies.is_empty());
+        let mut copies = None;
+        let mut numbers = Vec::new();
+        if let Some(copier) = copier {
+            copies = Some(copier.copy(levels.mesh, &levels.copies, new)?);
+            numbers.resize(vertex_count, 0);
+            for (copy, &vertex) in (0_u32..).zip(&levels.copies) {
+                numbers[vertex as usize] = copy;
+            }
+            vertex_count = levels.copies.len();
+        }
+
         let mut lists: Vec<Option<usize>> = Vec::with_capacity(levels.levels.len());
         for level in &levels.levels {
-            let stored = level.faces.as_ref();
-            let stored = stored.map(|faces| new.indices(faces, vertex_count));
+            let mut stored = level.faces.as_deref().map(Cow::Borrowed);
+            if copies.is_some() {
+                stored = stored.map(|mut faces| {
+                    renumber(faces.to_mut(), &numbers);
+                    faces
+                });
+            }
+            let stored = stored.map(|faces| new.indices(&faces, vertex_count));
             lists.push(stored.or(lists.last().copied().flatten()));
         }
-        Ok(StoredLevels { lists, levels })
+        Ok(StoredLevels {
+            lists,
+            copies,
+            levels,
+        })
     }
 
     /// Adds the levels of a mesh, if one of its primitives has some.
@@ -118,8 +148,7 @@ impl GltfFile {
         lists: &BTreeMap<usize, StoredLevels<'_>>,
         new: &mut NewMeshes<'_>,
     ) -> Result<Option<LeveledMesh>, Problem> {
-        let primitives = source.value.get("primitives");
-        let primitives: Vec<Value<'_>> = primitives.into_iter().flat_map(Value::elements).collect();
+        let primitives = primitives_of_mesh(source.value);
         let of_primitive: Vec<Option<&StoredLevels<'_>>> = (0..primitives.len())
             .map(|primitive| {
                 let (mesh, primitive) = (index32(source.number), index32(primitive));
@@ -152,7 +181,8 @@ impl GltfFile {
 
             let texts = primitives.iter().zip(&of_primitive);
             let texts = texts.map(|(primitive, stored)| {
-                primitive_text(*primitive, stored.and_then(|it| it.lists[level]))
+                let stored = stored.and_then(|it| Some((it, it.lists[level]?)));
+                primitive_text(*primitive, stored)
             });
             let texts: Vec<String> = texts.collect();
             let stored = of_primitive.iter();
@@ -169,8 +199,10 @@ impl GltfFile {
 
 /// The index lists of the levels of a mesh.
 struct StoredLevels<'l> {
-    /// The accessor of each; `None` for that of the full mesh.
+    /// The accessor of each; `None` for the full mesh.
     lists: Vec<Option<usize>>,
+    /// The members of a primitive that are of its vertices, if the lists are of copies.
+    copies: Option<Vec<String>>,
     levels: &'l NewLevels,
 }
 
@@ -199,12 +231,18 @@ impl SourceMesh<'_> {
     }
 }
 
-/// The text of a primitive with other faces, if these are given, and with the same vertices.
-fn primitive_text(primitive: Value<'_>, indices: Option<usize>) -> String {
-    let Some(indices) = indices else {
+/// The text of a primitive at a level, if it has a list of faces there.
+fn primitive_text(primitive: Value<'_>, stored: Option<(&StoredLevels<'_>, usize)>) -> String {
+    let Some((levels, indices)) = stored else {
         return primitive.raw().to_owned();
     };
-    let mut members = members_without(primitive, &["indices", "extensions"]);
+    let of_vertices: &[&str] = match &levels.copies {
+        Some(_) => &["attributes", "targets"],
+        None => &[],
+    };
+    let left_out = [&["indices", "extensions"], of_vertices].concat();
+    let mut members = members_without(primitive, &left_out);
+    members.extend(levels.copies.iter().flatten().cloned());
     let extensions = primitive.get("extensions");
     members.extend(extensions.and_then(|all| extensions_without(all, &OF_FACES)));
     members.push(format!(r#""indices":{indices}"#));

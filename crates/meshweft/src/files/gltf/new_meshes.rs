@@ -8,7 +8,7 @@ use super::accessors::{UNSIGNED_INT, UNSIGNED_SHORT};
 use super::additions::Additions;
 use super::json::Value;
 use super::movable::PrimitiveNumber;
-use super::new_attributes::{accessor_of, check_together};
+use super::new_attributes::{NewAccessor, accessor_of, check_together};
 use super::object::Object;
 use super::scene::{Drawn, INSTANCES, Scenes};
 use crate::attribute::Attribute;
@@ -150,11 +150,8 @@ impl<'a> NewMeshes<'a> {
         }
         let mut sets = vec![serde_json::Map::new(); 1 + named.len()];
         for attribute in attributes {
-            let mut accessor = accessor_of(attribute)?;
-            let view = self.view(&accessor.bytes, Some(VERTICES), accessor.stride);
-            accessor.json["bufferView"] = view.into();
+            let number = self.vertices(accessor_of(attribute)?);
             let set = attribute.info.morph_target.map_or(0, |t| 1 + t as usize);
-            let number = self.accessor(&accessor.json);
             sets[set].insert(attribute.info.semantic.to_string(), number.into());
         }
         // After what is wrong with one alone, which says more.
@@ -169,6 +166,13 @@ impl<'a> NewMeshes<'a> {
             members.push(format!(r#""targets":{}"#, sets.collect::<NewJson>()));
         }
         Ok(members)
+    }
+
+    /// Stores what vertices have; the number of their accessor.
+    pub(super) fn vertices(&mut self, mut accessor: NewAccessor) -> usize {
+        let view = self.view(&accessor.bytes, Some(VERTICES), accessor.stride);
+        accessor.json["bufferView"] = view.into();
+        self.accessor(&accessor.json)
     }
 
     /// Stores the corners of faces, in 16 bits if that is enough; the number of their accessor.

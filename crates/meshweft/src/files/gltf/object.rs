@@ -147,6 +147,18 @@ pub(super) fn malformed(pointer: String, text: impl Into<String>) -> Problem {
     FileErrorKind::malformed(text).at(Place::Json(pointer))
 }
 
+/// The primitives of each mesh.
+pub(super) fn primitives_of<'a>(root: Value<'a>) -> Vec<Vec<Value<'a>>> {
+    let meshes = root.get("meshes").into_iter().flat_map(Value::elements);
+    meshes.map(primitives_of_mesh).collect()
+}
+
+/// The primitives of a mesh.
+pub(super) fn primitives_of_mesh(mesh: Value<'_>) -> Vec<Value<'_>> {
+    let primitives = mesh.get("primitives").into_iter();
+    primitives.flat_map(Value::elements).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::json::Json;

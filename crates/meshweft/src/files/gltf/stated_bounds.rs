@@ -1,5 +1,7 @@
 //! The smallest and largest values that accessors state, brought up to date.
 
+use serde_json::Value as NewJson;
+
 use super::accessors::Accessors;
 use super::additions::Splice;
 use super::buffers::Buffers;
@@ -84,9 +86,28 @@ fn number_splice(stated: Value<'_>, found: f64, component: ComponentType) -> Opt
     if is_same || !found.is_finite() {
         return None;
     }
-    let text = match component {
-        ComponentType::F32 | ComponentType::F64 => serde_json::Value::from(found).to_string(),
-        _ => format!("{found}"),
+    Some((stated.span(), number(found, component).to_string()))
+}
+
+/// The smallest and the largest of each component, as an accessor states them; `None` if it cannot.
+pub(super) fn stated_bounds(values: &Values, components: usize) -> Option<[NewJson; 2]> {
+    let bounds = bounds(values, components);
+    let are_numbers = bounds.iter().flatten().all(|bound| bound.is_finite());
+    let of = |bounds: Vec<f64>| -> NewJson {
+        let bounds = bounds.into_iter();
+        bounds
+            .map(|it| number(it, values.component_type()))
+            .collect()
     };
-    Some((stated.span(), text))
+    are_numbers.then(|| bounds.map(of))
+}
+
+/// A bound of numbers of this type.
+fn number(bound: f64, component: ComponentType) -> NewJson {
+    match component {
+        // As a 64-bit number, whose text is exact.
+        ComponentType::F32 | ComponentType::F64 => bound.into(),
+        #[expect(clippy::cast_possible_truncation, reason = "it is whole")]
+        _ => (bound as i64).into(),
+    }
 }

@@ -21,7 +21,8 @@ use crate::progress::Progress;
 /// - All objects have one error budget: at each level none is farther off, as it is drawn, than it takes for the number of
 ///   faces of the whole. An object that has lost nothing at any level gets none.
 /// - The vertices of each level come first in every vertex view; inside a *band*, which is what a level adds, they are in the
-///   order of their first use by the full mesh. Nothing else that was there moves.
+///   order of their first use by the full mesh. Nothing else that was there moves. The levels of a mesh without an index list
+///   have copies of its vertices.
 /// - Each level is ordered as by [`optimize_indices`](crate::operations::optimize_indices).
 ///
 /// Of a document of another format a GLB is made and ordered first, with the names, positions and faces of its meshes: the
@@ -72,8 +73,8 @@ pub fn levels(
         *document = glb;
     }
     let ordering = Stage::new(progress, 0.6, 1.0, 1);
-    let lists = LevelLists::new(document.meshes(), &made, options, &ordering);
-    made.notes.extend(lists.notes(document));
+    let lists = LevelLists::new(document, &made, options, &ordering);
+    made.notes.extend(lists.notes(document.meshes()));
     let counts = (0..=made.level_count())
         .map(|number| counts_of(&lists.drawn_at(document.meshes(), number), options))
         .collect::<Vec<_>>();

@@ -3,7 +3,7 @@
 use super::budget::{Budgeted, goals_in_faces, largest_error, levels_of_objects};
 use super::coarser::{ObjectLevel, levels_of_object};
 use super::options::{LevelsError, LevelsOptions};
-use crate::files::{Document, Note, Place};
+use crate::files::{Document, Note, Place, VerticesOfLevels};
 use crate::operations::simplify::{ProgressiveObject, objects};
 use crate::operations::stage::Stage;
 use crate::parallel;
@@ -64,6 +64,7 @@ impl MadeLevels {
         let entries = document.meshes();
         let scales = document.drawn_scales();
         let is_alike = document.draws_alike();
+        let vertices_of = document.vertices_of_levels();
         let mut sets = objects(entries);
         for meshes in &mut sets {
             meshes.retain(|&mesh| entries[mesh].mesh.face_count() > 0);
@@ -83,6 +84,10 @@ impl MadeLevels {
             }
             if !meshes.iter().all(|&mesh| is_alike[mesh]) {
                 return Err("several primitives draw its faces with different vertices".to_owned());
+            }
+            let has_none = |&mesh: &usize| vertices_of[mesh] == VerticesOfLevels::None;
+            if meshes.iter().any(has_none) {
+                return Err("it has no index list, and its vertices cannot be copied".to_owned());
             }
             let object = ProgressiveObject::new(document, meshes, |_| collapses(options));
             removing.add(faces_of(meshes));
