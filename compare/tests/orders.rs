@@ -1,6 +1,6 @@
 //! Every order is a permutation of the faces: of every real mesh, and of ten thousand soups.
 
-use meshweft::order::baselines::{random, tipsify};
+use meshweft::order::baselines::{linear_speed, random, tipsify};
 use meshweft::order::bogomjakov_gotsman::{Cutter, LinearArrangement, RecursiveCut};
 use meshweft::order::{Effort, KCacheReorder, Mode, Optimizer, Target};
 use meshweft::{CacheModel, FaceOrder, Mesh, Permutation};
@@ -28,6 +28,7 @@ fn check(name: &str, method: &str, mesh: &Mesh, order: &FaceOrder) {
 
 fn check_all(name: &str, mesh: &Mesh, efforts: &[Effort]) {
     check(name, "Tipsify", mesh, &tipsify(mesh, 12));
+    check(name, "linear-speed", mesh, &linear_speed(mesh));
     for cutter in [Cutter::Multilevel, Cutter::Metis] {
         let algorithm = RecursiveCut {
             cutter,

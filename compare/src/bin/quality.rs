@@ -114,6 +114,10 @@ fn orders() -> Vec<(String, Make)> {
         let name = format!("Tipsify, ours, K={size}");
         orders.push((name, ours(move |mesh| baselines::tipsify(mesh, size))));
     }
+    orders.push((
+        "linear-speed, ours".to_owned(),
+        ours(|mesh| baselines::linear_speed(mesh)),
+    ));
     for cutter in [Cutter::Metis, Cutter::Multilevel] {
         let algorithm = RecursiveCut {
             cutter,

@@ -34,6 +34,7 @@ fn linear_orders(mesh: &Mesh) -> Vec<(CacheModel, FaceOrder)> {
     };
     let mut orders: Vec<_> = CACHES.map(fast).into();
     orders.push((CacheModel::fifo(16), baselines::tipsify(mesh, 16)));
+    orders.push((CacheModel::fifo(16), baselines::linear_speed(mesh)));
     for (cache, order) in &orders {
         assert_eq!(order.len(), mesh.face_count(), "{cache}");
         assert!(

@@ -191,6 +191,10 @@ proptest! {
         let tipsify = baselines::tipsify(&mesh, size);
         assert_misses_in_range(&assert_reorders(&mesh, &tipsify), size);
         prop_assert_eq!(baselines::tipsify(&mesh, size), tipsify);
+        let linear_speed = baselines::linear_speed(&mesh);
+        prop_assert!(linear_speed.rotations().is_empty());
+        assert_misses_in_range(&assert_reorders(&mesh, &linear_speed), size);
+        prop_assert_eq!(baselines::linear_speed(&mesh), linear_speed);
         let random = baselines::random(mesh.face_count(), seed);
         prop_assert_eq!(&baselines::random(mesh.face_count(), seed), &random);
         assert_misses_in_range(&assert_reorders(&mesh, &random.into()), size);

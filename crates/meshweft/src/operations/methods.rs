@@ -37,6 +37,8 @@ pub enum Method {
         /// Cache size in vertices.
         size: u32,
     },
+    /// Forsyth 2006, with the scores of meshoptimizer's `optimizeVertexCache`: its order.
+    LinearSpeed,
     /// Lin, Yu 2006.
     KCacheReorder {
         /// The cache to order for: FIFO or controllable.
@@ -60,9 +62,10 @@ pub enum Method {
 impl Method {
     /// Those that are shown next to each other: the baselines, the greedy, the papers' and the
     /// search's orders for all caches.
-    pub const SHOWN: [Self; 9] = [
+    pub const SHOWN: [Self; 10] = [
         Self::Random { seed: 7 },
         Self::Tipsify { size: 12 },
+        Self::LinearSpeed,
         Self::k_cache_reorder(12, Mode::Faithful),
         Self::k_cache_reorder(12, Mode::Fast),
         Self::k_cache_reorder(32, Mode::Fast),
@@ -106,6 +109,7 @@ impl Method {
             Self::AsItIs => FaceOrder::identity(faces.len()),
             Self::Random { seed } => Permutation::random(faces.len(), seed).into(),
             Self::Tipsify { size } => baselines::tipsify(faces, size),
+            Self::LinearSpeed => baselines::linear_speed(faces),
             Self::KCacheReorder {
                 cache,
                 greedy,
@@ -163,6 +167,7 @@ impl Method {
             Self::AsItIs => "as it comes",
             Self::Random { .. } => "random",
             Self::Tipsify { .. } => "Tipsify",
+            Self::LinearSpeed => "linear-speed",
             Self::KCacheReorder { greedy, .. } => match greedy.mode {
                 Mode::Fast => "K-Cache-Reorder, fast",
                 Mode::Faithful => "K-Cache-Reorder, faithful",

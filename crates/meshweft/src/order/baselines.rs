@@ -1,4 +1,4 @@
-//! Orders to compare with: random, and Tipsify.
+//! Orders to compare with: random, Tipsify, and linear-speed vertex cache optimisation.
 
 use crate::cache::Fifo;
 use crate::faces::Faces;
@@ -6,6 +6,8 @@ use crate::index::index32;
 use crate::permutation::{FaceOrder, Permutation};
 use crate::random::shuffled;
 use crate::topology::{Adjacency, distinct};
+
+pub use super::linear_speed::linear_speed;
 
 /// `len` numbers in a random order, the same for the same seed on every platform.
 ///

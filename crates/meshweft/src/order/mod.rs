@@ -14,6 +14,7 @@ mod greedy;
 mod grid;
 mod in_batches;
 mod k_cache_reorder;
+mod linear_speed;
 mod optimizer;
 mod polygons;
 mod search;
