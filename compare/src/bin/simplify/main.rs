@@ -12,8 +12,9 @@
 //!
 //! ```text
 //!   --floors   the fewest faces of either, by default of five scenes with seams, skins and morph targets
-//!   --scenes   distances of glTF scenes at 50, 25, 10 and 5 % of the faces, both efforts, against what gltfpack does
-//!              (--objects: a row of each object, too; --drop-parts: parts of ours may leave)
+//!   --scenes   distances of glTF scenes with levels of detail, both efforts, against what gltfpack does
+//!              (--percents 50,25,10,5: how coarse; --objects: a row of each object, too; --keep-parts: no part of ours
+//!              leaves as a whole)
 //!   --growth   memory and time a face at 1 and 10 million faces, or of the meshes that are named
 //! ```
 
@@ -81,8 +82,15 @@ fn run() -> Result<(), String> {
                 samples = number.map_err(|_| format!("--samples {text}: not a number"))?;
             }
             "--floors" | "--growth" | "--scenes" => table = Some(argument),
+            "--percents" => {
+                let text = value()?;
+                let percents = text.split(',').map(str::parse);
+                let percents = percents.collect::<Result<_, _>>();
+                variants.percents =
+                    percents.map_err(|_| format!("--percents {text}: not numbers"))?;
+            }
             "--objects" => variants.prints_objects = true,
-            "--drop-parts" => variants.drops_parts = true,
+            "--keep-parts" => variants.keeps_parts = true,
             flag if flag.starts_with("--") => return Err(format!("{flag} is not a flag")),
             _ => files.push(PathBuf::from(argument)),
         }
@@ -92,7 +100,7 @@ fn run() -> Result<(), String> {
     }
     if table.as_deref() == Some("--scenes") {
         let files = compare::files_or(files, scenes::files)?;
-        return scenes::print(&files, samples, variants);
+        return scenes::print(&files, samples, &variants);
     }
     if table.is_some() {
         let scenes = |data: &Path| {

@@ -2,83 +2,34 @@
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use compare::rivals;
 use meshweft::Mesh;
-use meshweft::attribute::Semantic;
+use meshweft::attribute::{Attribute, Semantic};
 
-use super::object::SceneObject;
+use super::object::ScenePrimitive;
 
 /// Normals, then colours.
 const WEIGHTS: [f32; 6] = [0.5, 0.5, 0.5, 1.0, 1.0, 1.0];
 
-/// The primitives of an object as meshoptimizer gets them from gltfpack (`simplifyMesh` in its `mesh.cpp`): each
-/// for itself, equal vertices as one, no face with two equal corners; a vertex is cut in two where the texture is
-/// mirrored; normals weigh .5, colours (times their alpha) 1, texture coordinates nothing. Parts may be pruned, as
-/// gltfpack has it, or not.
-pub(crate) struct GltfpackObject {
-    primitives: Vec<GltfpackPrimitive>,
-    face_count: usize,
-}
-
-struct GltfpackPrimitive {
+/// A primitive as meshoptimizer gets it from gltfpack (`simplifyMesh` in its `mesh.cpp`): for itself, equal vertices as
+/// one, no face with two equal corners; a vertex is cut in two where the texture is mirrored; normals weigh .5, colours
+/// (times their alpha) 1, texture coordinates nothing. Parts may be pruned, as gltfpack has it, or not.
+pub(crate) struct GltfpackPrimitive {
     mesh: Mesh,
-    /// The vertex of the object that each vertex is.
+    /// The vertex of the primitive that each vertex is.
     sources: Vec<u32>,
     attributes: Vec<[f32; 6]>,
-}
-
-impl GltfpackObject {
-    /// `faces` are those of the object, with equal vertices as one.
-    pub(crate) fn new(object: &SceneObject, faces: &[[u32; 3]]) -> Self {
-        let of = |range: &Range<usize>| GltfpackPrimitive::new(object, &faces[range.clone()]);
-        Self {
-            primitives: object.primitives.iter().map(of).collect(),
-            face_count: faces.len(),
-        }
-    }
-
-    /// The faces that are left where each primitive is asked for the same share, `face_count` of all together.
-    pub(crate) fn simplified(&self, face_count: usize, prunes: bool) -> Vec<[u32; 3]> {
-        let all = self.face_count.max(1);
-        let share = |own: usize| own * face_count / all;
-        let primitives = self.primitives.iter();
-        let left = primitives.flat_map(|it| it.simplified(share(it.mesh.face_count()), prunes));
-        left.collect()
-    }
-
-    /// What is left with as near to so many faces as it gets, and with at least one if there is any: by
-    /// pruning all may leave.
-    pub(crate) fn nearest(&self, face_count: usize, prunes: bool) -> Vec<[u32; 3]> {
-        let (mut low, mut high) = (0, self.face_count);
-        let mut best: Option<Vec<[u32; 3]>> = None;
-        while low <= high {
-            let asked = (low + high) / 2;
-            let left = self.simplified(asked, prunes);
-            let count = left.len();
-            let off = |it: &Vec<[u32; 3]>| it.len().abs_diff(face_count);
-            if count > 0 && best.as_ref().is_none_or(|best| off(&left) < off(best)) {
-                best = Some(left);
-            }
-            match count.cmp(&face_count) {
-                Ordering::Equal => break,
-                Ordering::Less => low = asked + 1,
-                Ordering::Greater if asked == 0 => break,
-                Ordering::Greater => high = asked - 1,
-            }
-        }
-        best.unwrap_or_default()
-    }
+    /// All faces, as they came.
+    full: Vec<[u32; 3]>,
 }
 
 impl GltfpackPrimitive {
-    fn new(object: &SceneObject, faces: &[[u32; 3]]) -> Self {
+    pub(crate) fn new(primitive: &ScenePrimitive) -> Self {
         let of = |semantic: Semantic| {
-            let is_own = |it: &&meshweft::attribute::Attribute| {
-                it.info.semantic == semantic && it.info.morph_target.is_none()
-            };
-            let found = object.attributes.iter().find(is_own);
+            let is_own =
+                |it: &&Attribute| it.info.semantic == semantic && it.info.morph_target.is_none();
+            let found = primitive.attributes.iter().find(is_own);
             found.map(|it| (it.to_f32(), it.info.components))
         };
         let used = [Semantic::Normal, Semantic::Color(0), Semantic::TexCoord(0)];
@@ -87,7 +38,8 @@ impl GltfpackPrimitive {
         // On which sides of a mirrored texture each vertex is: 1, 2, or both.
         let whole =
             |face: &&[u32; 3]| face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
-        let faces: Vec<[u32; 3]> = faces.iter().filter(whole).copied().collect();
+        let full = primitive.mesh.faces();
+        let faces: Vec<[u32; 3]> = full.iter().filter(whole).copied().collect();
         let side_of = |face: &[u32; 3]| {
             texture.as_ref().map_or(0_u8, |(values, components)| {
                 let [a, b, c] = face.map(|vertex| {
@@ -98,7 +50,7 @@ impl GltfpackPrimitive {
                 u8::from(area > 0.0) + 2 * u8::from(area < 0.0)
             })
         };
-        let mut sides = vec![0; object.mesh.vertex_count()];
+        let mut sides = vec![0; primitive.mesh.vertex_count()];
         for face in &faces {
             for &vertex in face {
                 sides[vertex as usize] |= side_of(face);
@@ -130,13 +82,39 @@ impl GltfpackPrimitive {
                 _ => alpha * element(&colours, vertex, slot - 3).unwrap_or(0.0),
             })
         });
-        let position = |&vertex: &u32| object.mesh.positions()[vertex as usize];
+        let position = |&vertex: &u32| primitive.mesh.positions()[vertex as usize];
         let positions: Vec<_> = sources.iter().map(position).collect();
         Self {
             attributes: attributes.collect(),
             mesh: Mesh::new(positions, kept).expect("numbers of vertices"),
             sources,
+            full: full.to_vec(),
         }
+    }
+
+    /// What is left with as near to so many faces as it gets, and at least `least`, if that is possible.
+    pub(crate) fn nearest(&self, face_count: usize, least: usize, prunes: bool) -> Vec<[u32; 3]> {
+        if face_count >= self.mesh.face_count() {
+            return self.full.clone();
+        }
+        let (mut low, mut high) = (0, self.mesh.face_count());
+        let mut best = self.full.clone();
+        let mut asked = face_count;
+        while low <= high {
+            let left = self.simplified(asked, prunes);
+            let count = left.len();
+            if count >= least && count.abs_diff(face_count) < best.len().abs_diff(face_count) {
+                best = left;
+            }
+            match count.cmp(&face_count) {
+                Ordering::Equal => break,
+                Ordering::Less => low = asked + 1,
+                Ordering::Greater if asked == 0 => break,
+                Ordering::Greater => high = asked - 1,
+            }
+            asked = low.midpoint(high);
+        }
+        best
     }
 
     fn simplified(&self, face_count: usize, prunes: bool) -> Vec<[u32; 3]> {

@@ -2,6 +2,8 @@
 
 const FIGURES: [&str; 3] = ["mean", "rms", "max"];
 const EFFORTS: [&str; 2] = ["fast", "best"];
+/// Shorter distances, in parts of the diagonal, are what single precision rounds.
+const ROUNDING: f64 = 1e-7;
 
 /// Sums over objects, then figures of a scene: mean, root of the mean square, greatest.
 #[derive(Debug, Clone, Copy, Default)]
@@ -19,123 +21,139 @@ impl SceneDistances {
         self.0[1] += rms;
         self.0[2] = self.0[2].max(max);
     }
+
+    /// From sums to figures in ten thousandths of a diagonal; what is only rounded is nothing.
+    fn finish(&mut self, area: f64, diagonal: f64) {
+        let [mean, rms, max] = &mut self.0;
+        *mean /= area;
+        *rms = (*rms / area).sqrt();
+        for figure in [mean, rms, max] {
+            let share = *figure / diagonal;
+            *figure = if share < ROUNDING { 0.0 } else { share * 1e4 };
+        }
+    }
 }
 
-/// A scene at one level.
-pub(crate) struct SceneRow {
-    name: String,
-    pub(crate) percent: usize,
-    pub(crate) all_faces: usize,
-    pub(crate) area: f64,
-    /// As many as gltfpack left.
-    pub(crate) faces: usize,
-    pub(crate) our_faces: [usize; 2],
+/// Ours by one effort and gltfpack's at these numbers of faces.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Comparison {
+    pub(crate) our_faces: usize,
+    pub(crate) their_faces: usize,
+    pub(crate) ours: SceneDistances,
     pub(crate) theirs: SceneDistances,
-    pub(crate) ours: [SceneDistances; 2],
-    /// Objects of which ours cannot leave as few as asked for, and of which gltfpack cannot.
-    pub(crate) our_floors: usize,
-    pub(crate) their_floors: usize,
-    /// Objects of which gltfpack leaves nothing when asked for as many.
-    pub(crate) their_losses: usize,
+    /// Whether ours does not get as coarse as asked for.
+    pub(crate) stops_above: bool,
+    /// How many faces gltfpack has more than ours in some primitives, and fewer in others.
+    pub(crate) more: usize,
+    pub(crate) fewer: usize,
     /// Objects that gltfpack leaves better if no part is pruned.
     pub(crate) unpruned: usize,
 }
 
-pub(crate) fn print_head() {
-    print!("| scene | faces | % | gltfpack | fast | best |");
-    for figure in FIGURES {
-        print!(" {figure} | fast | best |");
-    }
-    println!(" |\n|---|--:|--:|--:|--:|--:|{}---|", "--:|".repeat(9));
-}
-
-impl SceneRow {
-    pub(crate) fn new(name: &str, percent: usize) -> Self {
-        Self {
-            name: name.to_owned(),
-            percent,
-            all_faces: 0,
-            area: 0.0,
-            faces: 0,
-            our_faces: [0; 2],
-            theirs: SceneDistances::default(),
-            ours: [SceneDistances::default(); 2],
-            our_floors: 0,
-            their_floors: 0,
-            their_losses: 0,
-            unpruned: 0,
-        }
-    }
-
+impl Comparison {
     /// Adds sums of an object.
     pub(crate) fn add(&mut self, object: &Self) {
-        self.all_faces += object.all_faces;
-        self.area += object.area;
-        self.faces += object.faces;
+        self.our_faces += object.our_faces;
+        self.their_faces += object.their_faces;
+        self.ours.merge(object.ours);
         self.theirs.merge(object.theirs);
-        for effort in 0..EFFORTS.len() {
-            self.our_faces[effort] += object.our_faces[effort];
-            self.ours[effort].merge(object.ours[effort]);
-        }
-        self.our_floors += object.our_floors;
-        self.their_floors += object.their_floors;
-        self.their_losses += object.their_losses;
+        self.more += object.more;
+        self.fewer += object.fewer;
         self.unpruned += object.unpruned;
     }
 
-    /// From sums to figures in ten thousandths of `diagonal`; what is below `rounding` of it is nothing.
-    pub(crate) fn finish(&mut self, diagonal: f64, rounding: f64) {
-        let [fast, best] = &mut self.ours;
-        for SceneDistances([mean, rms, max]) in [&mut self.theirs, fast, best] {
-            *mean /= self.area;
-            *rms = (*rms / self.area).sqrt();
-            for figure in [mean, rms, max] {
-                let share = *figure / diagonal;
-                *figure = if share < rounding { 0.0 } else { share * 1e4 };
-            }
-        }
+    /// From sums to figures.
+    pub(crate) fn finish(&mut self, area: f64, diagonal: f64) {
+        self.ours.finish(area, diagonal);
+        self.theirs.finish(area, diagonal);
     }
 
     /// Ours over theirs, 1 where neither has an error; `None` where gltfpack alone has none.
-    fn ratio(&self, effort: usize, figure: usize) -> Option<f64> {
-        let (ours, theirs) = (self.ours[effort].0[figure], self.theirs.0[figure]);
+    fn ratio(&self, figure: usize) -> Option<f64> {
+        let (ours, theirs) = (self.ours.0[figure], self.theirs.0[figure]);
         match theirs > 0.0 {
             true => Some(ours / theirs),
             false => (ours == 0.0).then_some(1.0),
         }
     }
 
-    /// Whether there is something to compare: both have fewer faces than the scene.
-    fn is_simplified(&self) -> bool {
-        self.faces < self.all_faces
+    /// Whether ours has no more faces than gltfpack's, primitive by primitive, or hardly more.
+    fn is_fair(&self) -> bool {
+        super::are_near(self.fewer, self.our_faces)
     }
 
-    /// Whether both have as few faces as asked for, of each object.
+    fn notes(&self) -> String {
+        let note = |count: usize, what: &str| (count > 0).then(|| format!("{what} {count}"));
+        let notes = [
+            self.stops_above.then(|| "ours stops above".to_owned()),
+            note(self.more, "gltfpack more"),
+            note(self.fewer, "gltfpack fewer"),
+            note(self.unpruned, "without pruning"),
+        ];
+        let notes: Vec<String> = notes.into_iter().flatten().collect();
+        notes.join(", ")
+    }
+}
+
+/// A scene at one level.
+pub(crate) struct SceneRow {
+    name: String,
+    percent: usize,
+    all_faces: usize,
+    pub(crate) efforts: [Comparison; 2],
+}
+
+pub(crate) fn print_head() {
+    print!("| scene | faces | % |");
+    for effort in EFFORTS {
+        print!(" {effort} | gltfpack |");
+        for figure in FIGURES {
+            print!(" {figure} | {effort} |");
+        }
+    }
+    println!(" |\n|---|--:|--:|{}---|", "--:|".repeat(16));
+}
+
+impl SceneRow {
+    pub(crate) fn new(name: &str, percent: usize, all_faces: usize) -> Self {
+        Self {
+            name: name.to_owned(),
+            percent,
+            all_faces,
+            efforts: [Comparison::default(); 2],
+        }
+    }
+
+    /// Whether there is something to compare: ours has fewer faces than the scene.
+    fn is_simplified(&self) -> bool {
+        let counts = self.efforts.iter();
+        counts.map(|it| it.our_faces).all(|it| it < self.all_faces)
+    }
+
+    fn is_fair(&self) -> bool {
+        self.efforts.iter().all(Comparison::is_fair)
+    }
+
     fn is_reached(&self) -> bool {
-        self.our_floors + self.their_floors + self.their_losses == 0
+        self.efforts.iter().all(|it| !it.stops_above)
     }
 
     pub(crate) fn print(&self) {
         let (name, percent) = (&self.name, self.percent);
-        let [fast, best] = self.our_faces;
-        print!(
-            "| {name} | {} | {percent} | {} | {fast} | {best} |",
-            self.all_faces, self.faces
-        );
-        for figure in 0..FIGURES.len() {
-            print!(" {:.3} |", self.theirs.0[figure]);
-            for effort in 0..EFFORTS.len() {
-                print!(" {} |", shown(self.ratio(effort, figure)));
+        print!("| {name} | {} | {percent} |", self.all_faces);
+        for compared in &self.efforts {
+            print!(" {} | {} |", compared.our_faces, compared.their_faces);
+            for figure in 0..FIGURES.len() {
+                let theirs = compared.theirs.0[figure];
+                print!(" {theirs:.3} | {} |", shown(compared.ratio(figure)));
             }
         }
-        let note = |count: usize, what: &str| (count > 0).then(|| format!("{what}: {count}"));
-        let notes = [
-            note(self.our_floors, "ours stops above"),
-            note(self.their_floors, "gltfpack stops above"),
-            note(self.their_losses, "gltfpack leaves nothing"),
-            note(self.unpruned, "without pruning"),
-        ];
-        let notes: Vec<String> = notes.into_iter().flatten().collect();
+        let notes = self.efforts.iter().zip(EFFORTS);
+        let notes = notes.map(|(compared, effort)| (effort, compared.notes()));
+        let notes: Vec<String> = notes
+            .filter(|(_, notes)| !notes.is_empty())
+            .map(|(effort, notes)| format!("{effort}: {notes}"))
+            .collect();
         println!(" {} |", notes.join("; "));
     }
 }
@@ -155,6 +173,11 @@ impl ScenesSummary {
     pub(crate) fn print(&self, levels: &[usize]) {
         let (simplified, whole): (Vec<&SceneRow>, Vec<&SceneRow>) =
             self.rows.iter().partition(|row| row.is_simplified());
+        let pick = |is_of: &dyn Fn(&SceneRow) -> bool| -> Vec<&SceneRow> {
+            let rows = simplified.iter().copied();
+            rows.filter(|row| is_of(row)).collect()
+        };
+        let fair = pick(&SceneRow::is_fair);
         println!("\n### Ours over gltfpack's\n");
         print!("| geometric mean |");
         for figure in FIGURES {
@@ -169,51 +192,59 @@ impl ScenesSummary {
             println!();
         };
         for &percent in levels {
-            let rows = simplified.iter().copied();
-            let rows: Vec<&SceneRow> = rows.filter(|row| row.percent == percent).collect();
+            let rows = pick(&|row| row.is_fair() && row.percent == percent);
             line(format!("{percent} %, {} scenes", rows.len()), &rows);
         }
-        line(format!("all {} rows", simplified.len()), &simplified);
-        let reached = simplified.iter().copied().filter(|row| row.is_reached());
-        let reached: Vec<&SceneRow> = reached.collect();
+        let count = fair.len();
+        line(format!("these {count} rows"), &fair);
+        let reached = pick(&|row| row.is_fair() && row.is_reached());
+        let count = reached.len();
         line(
-            format!("the {} rows where both get there", reached.len()),
+            format!("the {count} of these as coarse as asked for"),
             &reached,
         );
-        print!("| median of all |");
-        each(|effort, figure| print!(" {} |", shown(median(&simplified, effort, figure))));
+        line(format!("all {} rows", simplified.len()), &simplified);
+        print!("| median |");
+        each(|effort, figure| print!(" {} |", shown(median(&fair, effort, figure))));
         println!();
         print!("| the worst row |");
         each(|effort, figure| {
-            let rows = simplified.iter();
-            let ratios = rows.filter_map(|row| Some((row.ratio(effort, figure)?, row)));
+            let rows = fair.iter();
+            let ratios = rows.filter_map(|row| Some((row.efforts[effort].ratio(figure)?, row)));
             let worst = ratios.max_by(|a, b| a.0.total_cmp(&b.0));
             let text =
                 worst.map(|(ratio, row)| format!("{ratio:.2} ({} {} %)", row.name, row.percent));
             print!(" {} |", text.unwrap_or_else(|| "–".to_owned()));
         });
+        println!("\n");
 
-        let named = |rows: &[&SceneRow]| {
+        let without = pick(&|row| {
+            let efforts = row.efforts.iter();
+            efforts
+                .flat_map(|it| (0..3).map(|at| it.ratio(at)))
+                .any(|it| it.is_none())
+        });
+        let unfair = pick(&|row| !row.is_fair());
+        for (what, rows) in [
+            (
+                "Rows where ours takes no face away, not in the means",
+                &whole,
+            ),
+            (
+                "Rows where gltfpack alone has no error, not in the means",
+                &without,
+            ),
+            (
+                "Rows where ours has more faces in some primitives, in the means of all rows only",
+                &unfair,
+            ),
+        ] {
             let names = rows
                 .iter()
                 .map(|row| format!("{} {} %", row.name, row.percent));
             let names: Vec<String> = names.collect();
-            format!("{}: {}", rows.len(), names.join(", "))
-        };
-        let without = simplified.iter().copied();
-        let without: Vec<&SceneRow> = without
-            .filter(|row| {
-                (0..2).any(|effort| (0..3).any(|figure| row.ratio(effort, figure).is_none()))
-            })
-            .collect();
-        println!(
-            "\n\nRows where gltfpack takes no face away, not in the means: {}.",
-            named(&whole)
-        );
-        println!(
-            "Rows where gltfpack alone has no error, not in the means: {}.",
-            named(&without)
-        );
+            println!("{what}: {}: {}.", names.len(), names.join(", "));
+        }
     }
 }
 
@@ -226,19 +257,22 @@ fn each(mut print: impl FnMut(usize, usize)) {
     }
 }
 
+fn ratios(rows: &[&SceneRow], effort: usize, figure: usize) -> Vec<f64> {
+    let rows = rows.iter();
+    rows.filter_map(|row| row.efforts[effort].ratio(figure))
+        .collect()
+}
+
 /// Of the rows with a ratio; one without an error on our side only counts as a thousandth.
 fn geometric_mean(rows: &[&SceneRow], effort: usize, figure: usize) -> Option<f64> {
-    let ratios = rows.iter().filter_map(|row| row.ratio(effort, figure));
-    let logs: Vec<f64> = ratios.map(|ratio| ratio.max(1e-3).ln()).collect();
-    let count = logs.len() as f64;
-    (count > 0.0).then(|| (logs.iter().sum::<f64>() / count).exp())
+    let ratios = ratios(rows, effort, figure);
+    let count = ratios.len() as f64;
+    let logs = ratios.into_iter().map(|ratio| ratio.max(1e-3).ln());
+    (count > 0.0).then(|| (logs.sum::<f64>() / count).exp())
 }
 
 fn median(rows: &[&SceneRow], effort: usize, figure: usize) -> Option<f64> {
-    let ratios: Vec<f64> = rows
-        .iter()
-        .filter_map(|row| row.ratio(effort, figure))
-        .collect();
+    let ratios = ratios(rows, effort, figure);
     (!ratios.is_empty()).then(|| compare::timing::median(ratios))
 }
 
