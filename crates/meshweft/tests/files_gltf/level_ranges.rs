@@ -22,6 +22,7 @@ fn open(bytes: Vec<u8>) -> Document {
 fn ranges(document: &Document, gap: u64) -> LevelRangesReport {
     let mut options = LevelRangesOptions::default();
     options.gap = gap;
+    options.most_waste = f64::INFINITY;
     level_ranges(document, &options).unwrap()
 }
 

@@ -2,9 +2,9 @@
 //!
 //! A client reads the header and the JSON first. Then, coarsest level first, it needs what a level adds to those before:
 //! index lists, and of each vertex view the part up to the last vertex that the level uses. Ranges that stand close
-//! together are one, as a request costs more than a few bytes too many.
+//! together are one, as a request costs more than a few bytes that are not needed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use serde_json::{Map, Value, json};
@@ -13,16 +13,22 @@ use crate::files::{Document, FileBytes, FileError, LevelBytes, Note};
 use crate::operations::json;
 
 /// How the ranges of [`level_ranges`] are made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct LevelRangesOptions {
-    /// Ranges that touch, or have fewer bytes than this between them, are one. By default 4096.
+    /// Ranges that touch, or have fewer bytes than this between them, may be one. By default 4096.
     pub gap: u64,
+    /// How many bytes may be fetched so, for each that is needed at a level: the nearest ranges are joined first. By default a
+    /// twentieth.
+    pub most_waste: f64,
 }
 
 impl Default for LevelRangesOptions {
     fn default() -> Self {
-        Self { gap: 4096 }
+        Self {
+            gap: 4096,
+            most_waste: 0.05,
+        }
     }
 }
 
@@ -69,7 +75,7 @@ pub fn level_ranges(
         for &bytes in needs.geometry.iter().chain(&needs.matrices) {
             fetched.missing_of(bytes, |bytes| missing.add(bytes));
         }
-        let joined = missing.joined(options.gap);
+        let joined = missing.joined(options);
         joined.iter().for_each(|&bytes| fetched.add(bytes));
         let bytes = joined.iter().map(|it| it.end - it.start).sum();
         total += bytes;
@@ -94,7 +100,7 @@ pub fn level_ranges(
         geometry_bytes,
         levels,
         image_bytes: images.length(),
-        images: found.ranges(&images.joined(options.gap)),
+        images: found.ranges(&images.joined(options)),
         companions: document.companions(),
         notes: document.notes().to_vec(),
     })
@@ -193,6 +199,7 @@ impl LevelRangesReport {
             ("file", json!(self.file.display().to_string())),
             ("bytes", json!(self.bytes)),
             ("gap", json!(self.options.gap)),
+            ("most_waste", json!(self.options.most_waste)),
             ("head_bytes", json!(self.head_bytes)),
             ("geometry_bytes", json!(self.geometry_bytes)),
             ("levels", Value::Null),
@@ -290,12 +297,26 @@ impl Fetched {
             .sum()
     }
 
-    /// The ranges, those with fewer than `gap` bytes between them as one.
-    fn joined(&self, gap: u64) -> Vec<FileBytes> {
+    /// The ranges, those that are near each other as one.
+    fn joined(&self, options: &LevelRangesOptions) -> Vec<FileBytes> {
+        // Between two ranges of one file, nearest first, as long as there is not too much between them in all.
+        let pairs = self.ends.iter().zip(self.ends.keys().skip(1));
+        let gaps = pairs.filter(|((before, _), next)| before.0 == next.0);
+        let gaps = gaps.map(|((_, &end), &next)| (next.1 - end, next));
+        let mut gaps: Vec<(u64, (usize, u64))> = gaps.filter(|it| it.0 < options.gap).collect();
+        gaps.sort_unstable();
+        let most = options.most_waste * self.length() as f64;
+        let mut waste = 0;
+        let filled = gaps.into_iter().take_while(|&(gap, _)| {
+            waste += gap;
+            waste as f64 <= most
+        });
+        let filled: BTreeSet<(usize, u64)> = filled.map(|(_, next)| next).collect();
+
         let mut joined: Vec<FileBytes> = Vec::new();
         for (&(file, start), &end) in &self.ends {
             match joined.last_mut() {
-                Some(last) if last.file == file && start - last.end < gap => last.end = end,
+                Some(last) if filled.contains(&(file, start)) => last.end = end,
                 _ => joined.push(FileBytes { file, start, end }),
             }
         }

@@ -52,12 +52,13 @@ fn ranges_that_are_close_are_one() {
         start: 31,
         end: 40,
     });
-    let joined = |gap| {
-        set.joined(gap)
+    let joined_within = |gap, most_waste| {
+        set.joined(&LevelRangesOptions { gap, most_waste })
             .iter()
             .map(|it| (it.file, it.start, it.end))
             .collect::<Vec<_>>()
     };
+    let joined = |gap| joined_within(gap, f64::INFINITY);
     assert_eq!(
         joined(0),
         [(0, 0, 10), (0, 14, 21), (0, 26, 30), (1, 31, 40)]
@@ -65,4 +66,9 @@ fn ranges_that_are_close_are_one() {
     assert_eq!(joined(4), joined(0));
     assert_eq!(joined(5), [(0, 0, 21), (0, 26, 30), (1, 31, 40)]);
     assert_eq!(joined(6), [(0, 0, 30), (1, 31, 40)]);
+
+    // 30 bytes, and 4 or 9 between them.
+    assert_eq!(joined_within(6, 8.9 / 30.0), joined(5));
+    assert_eq!(joined_within(6, 9.1 / 30.0), joined(6));
+    assert_eq!(joined_within(6, 0.1), joined(0));
 }
