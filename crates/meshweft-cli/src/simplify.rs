@@ -47,7 +47,7 @@ pub(crate) struct Simplify {
     /// Keep the vertices at open edges, so that meshes that meet there keep meeting
     #[arg(long, display_order = 2)]
     lock_border: bool,
-    /// Let small parts leave as a whole, once none of their vertices can
+    /// Let small parts leave as a whole, once none of their vertices can, and small holes close
     #[arg(long, display_order = 2)]
     drop_parts: bool,
     /// What a change of a normal by 1 counts, as hundredths of the bounding box's diagonal

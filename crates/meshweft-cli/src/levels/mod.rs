@@ -37,7 +37,7 @@ pub(crate) struct Levels {
     /// Keep the vertices at open edges, so that meshes that meet there keep meeting
     #[arg(long, display_order = 2)]
     lock_border: bool,
-    /// Let a part leave as a whole where its extent is below the error of the level
+    /// Let a part leave as a whole, and a hole close, where its extent is below the error of the level
     #[arg(long, display_order = 2, value_name = "true|false", default_value_t = true, action = ArgAction::Set, num_args = 0..=1, default_missing_value = "true")]
     drop_parts: bool,
     /// Go on where only vertices without a partner across a seam are left: their texture coordinates then change

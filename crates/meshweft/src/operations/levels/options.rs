@@ -18,8 +18,8 @@ pub struct LevelsOptions {
     pub goals: LevelGoals,
     /// Whether the vertices at open edges stay.
     pub lock_border: bool,
-    /// Whether a part may leave as a whole where its extent is below the error of the level. The last part of an object
-    /// never does.
+    /// Whether a part may leave as a whole, and a hole close, where its extent is below the error of the level. The last
+    /// part of an object never leaves.
     pub drop_parts: bool,
     /// Whether levels go on where only vertices without a partner on the other side of a seam are left: their texture
     /// coordinates and normals then change.

@@ -19,8 +19,8 @@ pub struct SimplifyOptions {
     pub error: Option<ErrorLimit>,
     /// Whether the vertices at open edges stay.
     pub lock_border: bool,
-    /// Whether a part that cannot be simplified any more may leave as a whole, if its extent is within the
-    /// error. The last part never does.
+    /// Whether a part that cannot be simplified any more may leave as a whole, and a small hole close, if its extent is
+    /// within the error. The last part never leaves.
     pub drop_parts: bool,
     /// What differences in attributes count.
     pub weights: AttributeWeights,

@@ -164,6 +164,9 @@ impl<'a> Builder<'a> {
         }
         let mut is_gathered = false;
 
+        // A removal for a hierarchy does not join borders.
+        let closes_holes = self.settings.drop_parts && self.balance.is_none();
+
         // The cheapest move first, and only what it may cost at least is worth knowing more of.
         while let Some(at) = self.cheapest(point) {
             let found = self.costs.moves[at];
@@ -197,6 +200,7 @@ impl<'a> Builder<'a> {
                     &self.costs.fan,
                     point,
                     found.to,
+                    closes_holes,
                 )
                 && self.costs.pair(&mut self.rest, found.to)
                 && (self.balance.is_none() || self.can_return(found.to));

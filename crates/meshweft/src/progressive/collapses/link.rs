@@ -1,4 +1,4 @@
-//! What may leave without a change of the surface's topology.
+//! What may leave without a change of the surface's topology, but for holes that close.
 
 use super::fan::{Fan, MOST_FACES};
 use super::remaining::{FanFace, NONE, RemainingMesh};
@@ -85,13 +85,15 @@ pub(super) fn locked(rest: &mut RemainingMesh<'_>, lock_border: bool) -> Vec<boo
 }
 
 /// Whether the surface stays the same but for its shape when a point moves to a neighbour: the link
-/// condition (T. Dey, H. Edelsbrunner, S. Guha, D. Nekhayev: *Topology preserving edge contraction*, 1999).
+/// condition (T. Dey, H. Edelsbrunner, S. Guha, D. Nekhayev: *Topology preserving edge contraction*, 1999). If holes may
+/// close, one of three edges does when two of them become one.
 pub(super) fn keeps_topology(
     rest: &mut RemainingMesh<'_>,
     marks: &mut Marks,
     fan: &Fan,
     point: u32,
     to: u32,
+    closes_holes: bool,
 ) -> bool {
     // The faces that leave, and the points opposite.
     let (mut tips, mut leaving) = ([NONE; 2], 0);
@@ -119,6 +121,12 @@ pub(super) fn keeps_topology(
         return false;
     }
 
+    // The third point of a hole is a common neighbour.
+    let third = match closes_holes {
+        true => third_of_hole(rest, fan, to, tips[0]),
+        false => NONE,
+    };
+
     // No other common neighbour, and no face that is there already; an ear leaves an edge of another face.
     marks.clear();
     for face in &fan.faces {
@@ -131,7 +139,7 @@ pub(super) fn keeps_topology(
             return true;
         }
         let [a, b] = face.ring.map(|x| tips.contains(&x));
-        let blocks = |x: u32, is_tip: bool| !is_tip && marks.has(x);
+        let blocks = |x: u32, is_tip: bool| !is_tip && x != third && marks.has(x);
         is_kept |= a || b;
         !(blocks(face.ring[0], a) || blocks(face.ring[1], b) || closes && a && b)
             && seen <= MOST_FACES
@@ -142,6 +150,31 @@ pub(super) fn keeps_topology(
 
     // Many faces: asked from the other side.
     !is_ear && !closes && are_apart(rest, fan, to, tips)
+}
+
+/// The third point of a hole whose other points are that of a fan and a neighbour, if it can close: the edges of both to the
+/// third then are one, between two faces that are not the same; [`NONE`] otherwise.
+fn third_of_hole(rest: &mut RemainingMesh<'_>, fan: &Fan, to: u32, tip: u32) -> u32 {
+    // The border goes on from the start of a fan, and comes from its end.
+    let (third, slot) = match fan.ends {
+        Some([start, end]) if start == to => (end, 0),
+        Some([start, end]) if end == to => (start, 1),
+        _ => return NONE,
+    };
+    if third == to || third == tip {
+        return NONE;
+    }
+    let (mut seen, mut is_next, mut is_free) = (0, false, true);
+    let is_all = rest.visit(to, |FanFace { ring, .. }| {
+        seen += 1;
+        is_next |= ring[slot] == third;
+        is_free &= ring[1 - slot] != third && !(ring.contains(&third) && ring.contains(&tip));
+        is_free && seen <= MOST_FACES
+    });
+    match is_all && is_next {
+        true => third,
+        false => NONE,
+    }
 }
 
 /// Whether no neighbour of the point but the tips has an edge to `to`, looked for at these neighbours.

@@ -28,8 +28,8 @@ pub struct Collapses {
     pub effort: Effort,
     /// Whether the vertices at open edges stay, so that meshes that meet there keep meeting.
     pub lock_border: bool,
-    /// Whether a part that cannot be simplified any more may leave as a whole, at its extent as error. The
-    /// last part never does.
+    /// Whether a part that cannot be simplified any more may leave as a whole, at its extent as error, and a hole that
+    /// has three edges left may close, at the distance that its border moves. The last part never leaves.
     pub drop_parts: bool,
     /// Whether vertices at a seam may go to the other side of another seam where they have no partner, at a price
     /// that keeps such moves for last. It gets further; a face may then have corners of two parts of a texture.

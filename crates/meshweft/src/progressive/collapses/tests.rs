@@ -291,3 +291,53 @@ fn a_part_in_the_plane_of_another_keeps_its_outline() {
         );
     }
 }
+
+/// A hole of a sheet closes where parts may leave, at an error that says so, and stays where all stays as it is connected.
+#[test]
+fn a_hole_closes_only_where_parts_may_leave() {
+    let side = 12_u32;
+    let sheet = hills(side, side);
+    let cell = (5 * side + 6) as usize;
+    let mut faces = sheet.faces().to_vec();
+    let hole: BTreeSet<Point> = faces
+        .drain(2 * cell..2 * cell + 2)
+        .as_slice()
+        .as_flattened()
+        .iter()
+        .map(|&vertex| point(&sheet, vertex))
+        .collect();
+    let mesh = Mesh::new(sheet.positions(), faces).unwrap();
+    let at_hole = |faces: &[[u32; 3]]| {
+        let open = open_edges(&mesh, faces).into_iter();
+        open.filter(|edge| edge.iter().any(|end| hole.contains(end)))
+            .count()
+    };
+    assert_eq!(at_hole(mesh.faces()), 4);
+    let mut random = SplitMix64(5);
+    for effort in EFFORTS {
+        for drop_parts in [false, true] {
+            let progressive = Collapses {
+                effort,
+                drop_parts,
+                ..Collapses::default()
+            }
+            .build(&mesh, &[])
+            .unwrap();
+            at_each_level(&progressive, |level, faces| {
+                assert!(
+                    topology(faces).1,
+                    "{effort:?}: level {level} is no manifold"
+                );
+                let open = at_hole(faces);
+                match drop_parts {
+                    true => assert!([0, 3, 4].contains(&open), "{effort:?}: {open} edges"),
+                    false => assert!([3, 4].contains(&open), "{effort:?}: {open} edges"),
+                }
+            });
+            assert_eq!(at_hole(&coarsest(&progressive)) == 0, drop_parts);
+            does_not_tear(&mesh, &progressive);
+            agrees_with_its_history(&progressive);
+            walks_come_back(&progressive, &mut random);
+        }
+    }
+}
