@@ -43,11 +43,10 @@ const SIZES: [u32; 3] = [12, 16, 32];
 const GPUS: [CacheModel; 3] = [CacheModel::Nvidia, CacheModel::AMD, CacheModel::INTEL];
 
 /// The orders of the rows, made for a FIFO cache of a size where that matters.
-const METHODS: [fn(u32) -> Method; 7] = [
+const METHODS: [fn(u32) -> Method; 6] = [
     |_| Method::AsItIs,
     |_| Method::Random { seed: 7 },
     |size| Method::Tipsify { size },
-    |_| Method::LinearSpeed,
     |size| Method::k_cache_reorder(size, Mode::Faithful),
     |size| Method::k_cache_reorder(size, Mode::Fast),
     |_| Method::Universal {
