@@ -90,30 +90,26 @@ fn around_hubs() {
     for (rim, rows) in [(300, 2), (1000, 0), (2000, 5), (700, 40)] {
         let drum = drum(rim, rows);
         let vertices = drum.as_flattened().iter().max().unwrap() + 1;
-        for seed in 0..4 {
+        for (seed, turns) in (0..4).zip(0..) {
             let mut faces = drum.clone();
             if seed > 0 {
                 faces = baselines::random(faces.len(), seed).apply(&faces);
             }
             // Turned in a way that is another for each face.
-            for (face, turn) in faces.iter_mut().zip((0..).map(|i| i * seed as usize)) {
-                face.rotate_left(turn / 2 % 3);
+            for (face, turn) in faces.iter_mut().zip((0..).map(|i| i * turns / 2)) {
+                face.rotate_left(turn % 3);
             }
             let mesh = Mesh::connectivity_only(vertices as usize, faces).unwrap();
             check(&format!("drum of {rim}, {rows} rows, {seed}"), &mesh);
         }
     }
     // Index buffers that are filled up, and few vertices that all are hubs.
-    let sliding = |seed| baselines::random(9000, seed).new_to_old().to_vec();
     for vertices in [3, 5, 20] {
-        let corners = sliding(vertices)
-            .chunks_exact(3)
-            .map(|c| [c[0], c[1], c[2]])
-            .collect::<Vec<_>>();
-        let corners = corners.iter().map(|face| face.map(|v| v % vertices as u32));
+        let draws = baselines::random(9000, u64::from(vertices));
+        let corners: &[[u32; 3]] = draws.new_to_old().as_chunks().0;
+        let drawn = corners.iter().map(|face| face.map(|v| v % vertices));
         let padding = (0..1000).map(|i| [1, 1, i % 2]);
-        let faces: Vec<_> = corners.chain(padding).collect();
-        let mesh = Mesh::connectivity_only(vertices as usize, faces).unwrap();
+        let mesh = Mesh::connectivity_only(20, drawn.chain(padding).collect::<Vec<_>>()).unwrap();
         check(&format!("{vertices} hubs"), &mesh);
     }
 }
