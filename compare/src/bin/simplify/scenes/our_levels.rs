@@ -6,7 +6,7 @@ use std::path::Path;
 use meshweft::Budget;
 use meshweft::Limits;
 use meshweft::files::Document;
-use meshweft::operations::{LevelGoals, LevelsError, LevelsOptions, levels, levels_apart};
+use meshweft::operations::{LevelGoals, LevelsError, LevelsOptions, levels};
 use meshweft::order::Effort;
 
 use super::object::{SceneObject, ScenePrimitive, Triangles};
@@ -17,9 +17,6 @@ pub(crate) struct LeveledScene {
     full: Document,
     /// With its levels.
     document: Document,
-    /// Each level as a document of its own, where the levels are not found in one: there is no entry for faces without an
-    /// index list once others have the same vertices.
-    apart: Vec<Document>,
     /// The meshes of each object, and how many units of the scene one of its own is.
     objects: Vec<(Vec<usize>, f64)>,
     /// How many faces there are at each level, the full one first.
@@ -67,18 +64,6 @@ impl LeveledScene {
             Err(error) => return Err(error.to_string()),
         };
 
-        let mut all = full.meshes().iter().zip(document.meshes());
-        let is_there = all.all(|(before, now)| {
-            now.level.is_none() && now.mesh.face_count() == before.mesh.face_count()
-        });
-        let apart = match is_there {
-            true => Vec::new(),
-            false => {
-                let apart = levels_apart(&full, &mut || open(), &options, &());
-                apart.map_err(|it| it.to_string())?.0
-            }
-        };
-
         let mut levels: BTreeMap<usize, BTreeMap<usize, Vec<usize>>> = BTreeMap::new();
         for (mesh, entry) in document.meshes().iter().enumerate() {
             if let Some(level) = entry.level {
@@ -89,7 +74,6 @@ impl LeveledScene {
         Ok(Self {
             full,
             document,
-            apart,
             objects,
             face_counts,
             levels,
@@ -133,7 +117,6 @@ impl LeveledScene {
         let stored = of_mesh.and_then(|it| it.range(..=level).next_back());
         match stored {
             _ if level == 0 => add(&self.full, mesh)?,
-            _ if !self.apart.is_empty() => add(&self.apart[level - 1], mesh)?,
             None => add(&self.document, mesh)?,
             Some((_, meshes)) => {
                 for &mesh in meshes {
