@@ -43,10 +43,10 @@ impl GltfFile {
             let json = super::read_json(&self.container, &self.options.limits)?;
             let root = Object::new(json.root(), String::new())?;
             let copier = VertexCopier::new(self, &root)?;
-            let of_mesh = |mesh: usize| match (self.has_indices(mesh), copier.sets(mesh)) {
-                (true, _) => VerticesOfLevels::OfMesh,
-                (false, Some(_)) => VerticesOfLevels::Copies,
-                (false, None) => VerticesOfLevels::None,
+            let of_mesh = |mesh: usize| match self.has_indices(mesh) {
+                true => VerticesOfLevels::OfMesh,
+                false if copier.sets(mesh).is_some() => VerticesOfLevels::Copies,
+                false => VerticesOfLevels::None,
             };
             Ok::<_, Problem>(meshes.clone().map(of_mesh).collect())
         };
