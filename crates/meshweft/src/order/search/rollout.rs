@@ -1,8 +1,8 @@
 //! The loop: run several continuations, commit the beginning of the best one.
 //!
 //! A *continuation* ([`Rollout`]) is a list of focus vertices. It is run by drawing them with
-//! `UNDO` and taken back afterwards. What is *committed* is drawn without `UNDO` and stays. The
-//! tail of the best continuation is run again as the first one of the next round.
+//! `UNDO` and taken back afterwards. What is *committed* is drawn without `UNDO`, or as it was recorded, and
+//! stays. The tail of the best continuation is run again as the first one of the next round.
 //!
 //! Read `run` first, then `best_of` for a round, `try_out` for a continuation in it.
 
@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::mask::Mask;
 use super::settings::Settings;
-use super::state::{Candidate, State};
+use super::state::{Candidate, Redo, State};
 use crate::order::greedy::HUB;
 use crate::progress::Progress;
 
@@ -93,6 +93,8 @@ pub(super) struct Rollouts<'a, M, const CACHES: usize> {
     noises: Vec<i64>,
     /// Where the scan in file order goes on: no vertex before it has faces left.
     input_cursor: u32,
+    /// What the best continuation of a round drew, where that is to be committed as a whole.
+    redo: Redo<M, CACHES>,
 }
 
 /// A continuation.
@@ -134,6 +136,7 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
             settings,
             random,
             input_cursor: 0,
+            redo: Redo::default(),
         }
     }
 
@@ -187,13 +190,14 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
     /// swapped: `winner` then has the new best, and `spare` the buffers for the next one.
     ///
     /// Each is taken back, so the caller draws the part of `winner` that it commits again, without
-    /// `UNDO`. One case saves that: the last continuation, if it wins and is to be committed as a
-    /// whole, is kept as it is drawn (`true`).
+    /// `UNDO`. Where `winner` is to be committed as a whole, that is saved (`true`): the last continuation is kept as
+    /// it is drawn, what another one drew was recorded.
     fn best_of(&mut self, runs: usize, winner: &mut Rollout, spare: &mut Rollout) -> bool {
         let horizon = self.settings.horizon;
         self.state.reset_exits();
         let saved = self.state.save();
         let mut best = i64::MAX;
+        let mut is_recorded = false;
 
         for number in 0..runs {
             self.state.begin();
@@ -207,16 +211,24 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
 
                     let is_committed_whole =
                         end == End::Complete && horizon.commit >= horizon.steps;
-                    if number + 1 == runs && is_committed_whole {
+                    if is_committed_whole && number + 1 == runs {
                         self.state.keep();
                         return true;
+                    }
+                    is_recorded = is_committed_whole;
+                    if is_recorded {
+                        self.state.undo_to_redo(&saved, &mut self.redo);
+                        continue;
                     }
                 }
             }
 
             self.state.undo(&saved);
         }
-        false
+        if is_recorded {
+            self.state.redo(&mut self.redo);
+        }
+        is_recorded
     }
 
     /// Draws a continuation with `UNDO`, and records it in `rollout`; `drawn` faces were drawn before.

@@ -1,15 +1,16 @@
 //! Traversal state with undo: undrawn faces, and the caches being modelled.
 //!
-//! An *attempt* is what is drawn with `UNDO` between [`State::begin`] and [`State::undo`] or
-//! [`State::keep`]. It saves each vertex before first changing it; taking it back restores these
-//! vertices, the caches and a few numbers, whatever the caches did.
+//! An *attempt* is what is drawn with `UNDO` between [`State::begin`] and [`State::undo`],
+//! [`State::undo_to_redo`] or [`State::keep`]. It saves each vertex before first changing it; taking it back restores
+//! these vertices, the caches and a few numbers, whatever the caches did.
 //!
 //! *Candidates* for the next focus are the unfinished vertices of the last pushes, as a bit set of
 //! the numbers of these pushes: the oldest are found without touching the others.
 //!
-//! Read `caches` for what is modelled, `drawing` for what a face changes. `oracle` compares all
-//! counts with plain recounts.
+//! Read `caches` for what is modelled, `drawing` for what a face changes, `attempts` for undo and redo. `oracle` compares
+//! all counts with plain recounts.
 
+mod attempts;
 mod caches;
 mod drawing;
 #[cfg(test)]
@@ -22,6 +23,7 @@ use crate::faces::Faces;
 use crate::index::index32;
 use crate::order::greedy::{HUB, least_neighbours};
 use crate::topology::rows;
+pub(super) use attempts::Redo;
 use caches::Cache;
 pub(super) use caches::CacheLimits;
 #[cfg(test)]
@@ -93,20 +95,6 @@ pub(super) struct State<'a, M, const CACHES: usize> {
     /// Vertices that were candidates and left the window, or a controllable cache, unfinished: where
     /// to go on when no candidate is left.
     pub(super) dead_ends: Vec<u32>,
-}
-
-/// What undo restores besides vertices.
-pub(super) struct Saved<M, const CACHES: usize> {
-    caches: [Cache; CACHES],
-    candidate_pushes: M,
-    window_exits: [u32; WINDOWS],
-    /// How many faces were drawn.
-    pub(super) drawn: usize,
-    /// How many dead ends there were.
-    dead_ends: usize,
-    waiting: u32,
-    /// How many hosts there were.
-    hosts: usize,
 }
 
 /// What is known of a candidate for the next focus.
@@ -243,58 +231,6 @@ impl<'a, M: Mask, const CACHES: usize> State<'a, M, CACHES> {
             cache.exits = 0;
         }
         self.window_exits = [0; WINDOWS];
-    }
-
-    /// What [`undo`](Self::undo) needs to come back to this state, as often as it is asked to.
-    pub(super) fn save(&self) -> Saved<M, CACHES> {
-        Saved {
-            caches: self.caches.clone(),
-            candidate_pushes: self.candidate_pushes,
-            window_exits: self.window_exits,
-            drawn: self.new_to_old.len(),
-            dead_ends: self.dead_ends.len(),
-            waiting: self.waiting,
-            hosts: self.hosts.len(),
-        }
-    }
-
-    /// Starts an attempt: what is drawn with `UNDO` from now on can be taken back.
-    pub(super) fn begin(&mut self) {
-        debug_assert!(
-            self.overwritten.is_empty(),
-            "the last attempt has not ended"
-        );
-        if self.attempt == u32::MAX {
-            // Numbers start again: no vertex may have one that comes up once more.
-            self.vertices.iter_mut().for_each(|v| v.attempt = 0);
-            self.attempt = 0;
-        }
-        self.attempt += 1;
-    }
-
-    /// Takes the attempt back, to the state at `save`.
-    pub(super) fn undo(&mut self, saved: &Saved<M, CACHES>) {
-        for (vertex, before) in self.overwritten.drain(..) {
-            self.vertices[vertex as usize] = before;
-        }
-
-        for &face in &self.new_to_old[saved.drawn..] {
-            self.drawn[face as usize] = false;
-        }
-        self.new_to_old.truncate(saved.drawn);
-        self.rotations.truncate(saved.drawn);
-        self.dead_ends.truncate(saved.dead_ends);
-        self.waiting = saved.waiting;
-        self.hosts.truncate(saved.hosts);
-
-        self.caches.clone_from(&saved.caches);
-        self.candidate_pushes = saved.candidate_pushes;
-        self.window_exits = saved.window_exits;
-    }
-
-    /// Ends the attempt and leaves what it drew.
-    pub(super) fn keep(&mut self) {
-        self.overwritten.clear();
     }
 
     /// How many faces there are, drawn or not.

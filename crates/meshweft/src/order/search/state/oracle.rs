@@ -110,6 +110,8 @@ fn draw_all<M: Mask, const CACHES: usize>(
     let mut state = State::<M, CACHES>::new(faces, limits);
     state.window = window.max(limits[0].size).min(M::SPAN);
     state.keep_corners = keep_corners;
+    let mut redo = Redo::default();
+    let mut is_odd = false;
     let mut any_live = |state: &State<'_, M, CACHES>| {
         let from = index32(numbers.below(faces.vertex_count() + 1));
         state.first_live(from).or_else(|| state.first_live(0))
@@ -132,7 +134,14 @@ fn draw_all<M: Mask, const CACHES: usize>(
         }
 
         // Taken back, nothing but the attempt numbers has changed.
-        state.undo(&saved);
+        let attempted = (
+            state.vertices.clone(),
+            state.drawn.clone(),
+            state.dead_ends.clone(),
+            state.new_to_old.clone(),
+            state.rotations.clone(),
+        );
+        state.undo_to_redo(&saved, &mut redo);
         let known = |vertices: &[SearchVertex<CACHES>]| -> Vec<_> {
             let known =
                 |v: &SearchVertex<CACHES>| (v.entered, v.row_start, v.live, v.missing_corners);
@@ -141,7 +150,18 @@ fn draw_all<M: Mask, const CACHES: usize>(
         assert_eq!(known(&state.vertices), known(&before.0));
         assert_eq!((&state.drawn, &state.dead_ends), (&before.1, &before.2));
 
-        state.draw::<false>(focus);
+        // Every other time it is drawn again, as it was.
+        is_odd = !is_odd;
+        if is_odd {
+            state.draw::<false>(focus);
+        } else {
+            state.redo(&mut redo);
+            assert_eq!(known(&state.vertices), known(&attempted.0));
+            let drawn = (&state.drawn, &state.dead_ends);
+            assert_eq!(drawn, (&attempted.1, &attempted.2));
+            let order = (&state.new_to_old, &state.rotations);
+            assert_eq!(order, (&attempted.3, &attempted.4));
+        }
         state.assert_counts();
     }
 
