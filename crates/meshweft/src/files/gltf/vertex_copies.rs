@@ -174,8 +174,10 @@ impl<'a> VertexCopier<'a> {
         let count = entries.meshes[mesh].mesh.vertex_count();
         let mut copies: BTreeMap<usize, usize> = BTreeMap::new();
         for accessor in sets.accessors() {
-            let (Some(elements), false) = (self.elements(accessor), copies.contains_key(&accessor))
-            else {
+            if copies.contains_key(&accessor) {
+                continue;
+            }
+            let Some(elements) = self.elements(accessor) else {
                 continue;
             };
             let components = elements.components();

@@ -73,7 +73,7 @@ pub fn levels(
         *document = glb;
     }
     let ordering = Stage::new(progress, 0.6, 1.0, 1);
-    let lists = LevelLists::new(document, &made, options, &ordering);
+    let lists = LevelLists::new(document.meshes(), &made, options, &ordering);
     made.notes.extend(lists.notes(document.meshes()));
     let counts = (0..=made.level_count())
         .map(|number| counts_of(&lists.drawn_at(document.meshes(), number), options))

@@ -30,13 +30,11 @@ pub(super) struct LevelLists {
 impl LevelLists {
     /// The lists, each in its order.
     pub(super) fn new(
-        document: &Document,
+        entries: &[MeshEntry],
         made: &MadeLevels,
         options: &LevelsOptions,
         stage: &Stage<'_>,
     ) -> Self {
-        let entries = document.meshes();
-        let vertices_of = document.vertices_of_levels();
         let mut lists = Self {
             meshes: in_order_of_file(entries, made),
             bands: BTreeMap::new(),
@@ -45,7 +43,7 @@ impl LevelLists {
         };
         // Orders may look at the numbers that vertices will have, and bands at orders.
         lists.find_bands(entries, options);
-        lists.find_bands_of_copies(entries, &vertices_of);
+        lists.find_bands_of_copies(entries, &made.vertices_of);
 
         // Each list on its own.
         let Self {
@@ -76,7 +74,7 @@ impl LevelLists {
         }
         shared.finish();
         lists.find_bands(entries, options);
-        lists.find_bands_of_copies(entries, &vertices_of);
+        lists.find_bands_of_copies(entries, &made.vertices_of);
         lists.count_needed_vertices(entries);
         lists
     }

@@ -12,6 +12,8 @@ use crate::progressive::{Collapses, StopReason};
 /// The levels of all objects.
 pub(super) struct MadeLevels {
     pub(super) objects: Vec<MadeObject>,
+    /// For each mesh of the document, which vertices its levels can have.
+    pub(super) vertices_of: Vec<VerticesOfLevels>,
     /// Where the faces asked for cannot be reached: how many there are at the coarsest.
     pub(super) floor: Option<usize>,
     pub(super) notes: Vec<Note>,
@@ -152,6 +154,7 @@ impl MadeLevels {
         });
         let mut made = Self {
             objects,
+            vertices_of,
             floor,
             notes,
         };
