@@ -39,14 +39,34 @@ pub fn turn_corners<'a>(
     let Some(mut cache) = Drawing::new(cache, faces.vertex_count()) else {
         return permutation.into();
     };
-    let rotation = |&face: &u32| {
-        let corners = faces.as_slice()[face as usize];
-        let [a, b, c] = cache.missing(corners).map(usize::from);
-        let rotation = HITS_FIRST[a | b << 1 | c << 2];
-        cache.draw(turned(corners, rotation));
-        rotation
+
+    // FIFO caches, which the universal order is turned for, have a loop of their own.
+    let of_set = |[a, b, c]: [bool; 3]| {
+        let [a, b, c] = [a, b, c].map(usize::from);
+        HITS_FIRST[a | b << 1 | c << 2]
     };
-    let rotations = order.new_to_old().iter().map(rotation).collect();
+    let drawn = order.new_to_old().iter();
+    let drawn = drawn.map(|&face| faces.as_slice()[face as usize]);
+    let rotations = match &mut cache {
+        Drawing::Fifo(fifo) => {
+            let turn = |corners: [u32; 3]| {
+                let rotation = of_set(corners.map(|vertex| !fifo.contains(vertex)));
+                for vertex in turned(corners, rotation) {
+                    fifo.miss(vertex);
+                }
+                rotation
+            };
+            drawn.map(turn).collect()
+        }
+        cache => {
+            let turn = |corners: [u32; 3]| {
+                let rotation = of_set(cache.missing(corners));
+                cache.draw(turned(corners, rotation));
+                rotation
+            };
+            drawn.map(turn).collect()
+        }
+    };
     FaceOrder::new(permutation, rotations).expect("one rotation below 3 a face")
 }
 

@@ -209,11 +209,16 @@ impl<'a, M: Mask, const CACHES: usize> Rollouts<'a, M, CACHES> {
                     best = score;
                     std::mem::swap(winner, spare);
 
+                    let is_last = number + 1 == runs || score <= horizon.good_enough;
                     let is_committed_whole =
                         end == End::Complete && horizon.commit >= horizon.steps;
-                    if is_committed_whole && number + 1 == runs {
+                    if is_committed_whole && is_last {
                         self.state.keep();
                         return true;
+                    }
+                    if is_last {
+                        self.state.undo(&saved);
+                        return false;
                     }
                     is_recorded = is_committed_whole;
                     if is_recorded {

@@ -65,6 +65,8 @@ pub(super) struct Horizon {
     /// A continuation is given up if its score is worse than the best one's by more than this, in
     /// 1024ths of an eviction.
     pub(super) margin: i64,
+    /// A continuation whose score is at most this, in 1024ths of an eviction, ends its round.
+    pub(super) good_enough: i64,
     /// The last step of a continuation, from 0, in which it is not given up yet.
     pub(super) patience: usize,
 }

@@ -56,12 +56,27 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
 
         // Push its misses.
         let turned = turned(corners, rotation);
+        let mut entered = [0_u32; 3];
         for cache in 0..CACHES {
             // A face may name a vertex twice, and with kept corners an earlier push may have
             // evicted a corner that was there.
-            for corner in turned {
+            for (corner, entered) in turned.into_iter().zip(&mut entered) {
                 if self.is_missing(corner, cache) {
                     self.push::<UNDO>(corner, cache, corners);
+                    *entered += one_in(cache);
+                    if CACHES == 1 {
+                        self.announce_entry::<UNDO>(corner, one_in(cache));
+                    }
+                }
+            }
+        }
+
+        // What entered two caches at once is announced once. With one it was announced at once: a
+        // controllable cache makes room by what was.
+        if CACHES > 1 {
+            for (corner, entered) in turned.into_iter().zip(entered) {
+                if entered != 0 {
+                    self.announce_entry::<UNDO>(corner, entered);
                 }
             }
         }
@@ -181,9 +196,13 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
             model.first += 1;
             self.exit::<UNDO>(leaving, cache);
         }
+    }
 
-        if is_live {
-            self.announce::<UNDO>(corner, one_in(cache).wrapping_neg());
+    /// Announces a vertex that entered caches, [`one_in`] each, unless it is finished.
+    #[inline]
+    fn announce_entry<const UNDO: bool>(&mut self, vertex: u32, entered: u32) {
+        if self.live(vertex) != 0 {
+            self.announce::<UNDO>(vertex, entered.wrapping_neg());
         }
     }
 
@@ -266,8 +285,8 @@ impl<M: Mask, const CACHES: usize> State<'_, M, CACHES> {
         }
     }
 
-    /// Tells the neighbours of `vertex`, unless it is a hub, that it left or entered a cache:
-    /// `change` is [`one_in`] that cache, or its wrapped negative.
+    /// Tells the neighbours of `vertex`, unless it is a hub, that it left or entered caches:
+    /// `change` is [`one_in`] each of them, or the wrapped negative.
     #[inline]
     fn announce<const UNDO: bool>(&mut self, vertex: u32, change: u32) {
         let row = self.row(vertex);
