@@ -99,7 +99,6 @@ impl<'a> PartOfWork<'a> {
     }
 
     /// Whether it was said in this part that the work stops.
-    #[cfg(feature = "files")]
     pub(crate) fn is_stopped(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
     }

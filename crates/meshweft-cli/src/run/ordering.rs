@@ -108,9 +108,9 @@ impl From<Mode> for order::Mode {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Effort {
-    /// About three times meshoptimizer's time, for one cache less than that
+    /// About four times meshoptimizer's time, for one cache less than that
     Fast,
-    /// About ten times meshoptimizer's time
+    /// About thirteen times meshoptimizer's time
     Best,
     /// Up to two hundred times meshoptimizer's time
     Max,

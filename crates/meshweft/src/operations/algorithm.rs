@@ -45,6 +45,13 @@ impl Algorithm {
         self.optimizer.target
     }
 
+    /// The same with the random numbers of another seed; 0 keeps its own.
+    pub(super) fn with_other_seed(&self, other: u64) -> Self {
+        let mut algorithm = self.clone();
+        algorithm.optimizer.seed = self.optimizer.seed.wrapping_add(other << 32);
+        algorithm
+    }
+
     /// Whether an order that misses more is taken too.
     pub(super) fn allows_worse(&self) -> bool {
         self.allows_worse

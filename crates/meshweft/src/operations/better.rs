@@ -10,6 +10,10 @@
 //! so much again. So searches of more than [`MOST_CHECKED`](super::algorithm::MOST_CHECKED) faces,
 //! which take longest, are not checked.
 //!
+//! A universal order is nowhere above the floor ([`is_above_floor`]). One that a check finds is nowhere above the floor of
+//! what is checked, which is another one, so it may be above that of the faces as they were: then these are
+//! ordered with other random numbers.
+//!
 //! A run on the output must see what the check saw: vertices come in the order of their first use,
 //! whatever their numbers in the file, and each run of a mesh is judged on its own.
 
@@ -19,11 +23,15 @@ use super::shared_progress::SharedProgress;
 use crate::cache;
 use crate::faces::Faces;
 use crate::first_use::Compact;
-use crate::order::{vertex_bands, vertex_fetch};
+use crate::order::{Target, is_above_floor, vertex_bands, vertex_fetch};
 use crate::permutation::{FaceOrder, VertexOrder, renumber};
 
 /// A gain below one in so many counts as none.
 const SMALLEST_GAIN: u64 = 200;
+
+/// How often another order is looked for where a check of the one before found a better one that is above the
+/// floor. One public mesh of 250 needs one; after the last, the better one is taken all the same.
+const MOST_RESTARTS: u64 = 4;
 
 /// An order of the faces of one run.
 pub(super) struct RunOrder {
@@ -68,11 +76,14 @@ impl Algorithm {
         let mut now = Compact::new(faces);
         let mut starts = starts.map(<[u32]>::to_vec);
         let mut misses = of_whole;
+        let mut restarts = 0;
 
         loop {
             // Order: the first time is half of the work, the check the other half.
             let part = progress.part(left.div_ceil(parts));
-            let (order, scheduled) = self.order(now.faces(), starts.as_deref(), &part);
+            let restart = if run.order.is_identity() { restarts } else { 0 };
+            let algorithm = self.with_other_seed(restart);
+            let (order, scheduled) = algorithm.order(now.faces(), starts.as_deref(), &part);
             part.finish();
             left -= left.div_ceil(parts);
             parts = 1;
@@ -95,6 +106,21 @@ impl Algorithm {
             if let Some(reason) = self.refusal(before, after) {
                 run.reason = run.order.is_identity().then_some(reason);
                 break;
+            }
+
+            // The universal order that a check finds has another floor than the faces had at first. If it is
+            // above that one, another order is found for the faces as they were.
+            let has_floor = self.target() == Target::Universal && starts.is_none();
+            let is_of_check = !run.order.is_identity();
+            if has_floor && is_of_check && restarts < MOST_RESTARTS {
+                let whole = run.order.then(&order);
+                if is_above_floor(faces, &whole) {
+                    restarts += 1;
+                    run.order = FaceOrder::identity(faces.len());
+                    now = Compact::new(faces);
+                    misses = of_whole;
+                    continue;
+                }
             }
             misses = Some(after);
 

@@ -20,6 +20,7 @@ mod polygons;
 mod search;
 mod target;
 mod turn_corners;
+mod universal;
 mod vertex_blocks;
 mod vertex_fetch;
 
@@ -34,6 +35,7 @@ pub use optimizer::Optimizer;
 pub use search::tuning;
 pub use target::{Effort, ParseTargetError, Target};
 pub use turn_corners::turn_corners;
+pub(crate) use universal::is_above_floor;
 #[cfg(feature = "files")]
 pub(crate) use vertex_blocks::by_first_use;
 pub(crate) use vertex_blocks::first_use_in_blocks;

@@ -10,6 +10,7 @@ use crate::order::k_cache_reorder::KCacheReorder;
 use crate::order::polygons::{check_starts, polygon_of_each_face};
 use crate::order::search::{self, Search};
 use crate::order::target::{Effort, Target};
+use crate::order::universal::Universal;
 use crate::parallel;
 use crate::permutation::{FaceOrder, Permutation};
 use crate::progress::{Budget, Progress};
@@ -54,6 +55,10 @@ impl Optimizer {
 
     /// The order in which to draw the faces.
     ///
+    /// - Universal: among the faces as they are, what a search finds, and the *floor*, which is the order by
+    ///   [`linear_speed`](super::baselines::linear_speed()), that of least [cost](Target::cost) that is nowhere above the
+    ///   floor: in none of [`Target::UNIVERSAL`], nor in the setup cycles of NVIDIA cards. Floor and search
+    ///   are found side by side. Polygons that stay whole have no floor, nor has an order that was stopped.
     /// - FIFO and controllable, fast: [`KCacheReorder`].
     /// - Larger caches than 128 vertices (controllable: 64) are searched as if they had 128 (64): an
     ///   order made for that is nearly as good in a larger cache.
@@ -68,7 +73,8 @@ impl Optimizer {
     ///
     /// # Complexity
     /// Time O(vertices + faces), with a factor that the effort sets. Meshes in blocks are ordered in
-    /// parts of a block each, others of more than 262 thousand faces in parts of at least 131 thousand. Space: 40 bytes a face of the
+    /// parts of a block each, others of more than 262 thousand faces in parts of at least 131 thousand. Around vertices of more than 256
+    /// faces the universal order takes the time of its floor. Space: 60 bytes a face of the
     /// whole, and 90 bytes a face of the parts being searched, one a thread.
     #[must_use]
     pub fn face_order<'a>(&self, faces: impl Into<Faces<'a>>) -> FaceOrder {
@@ -135,6 +141,11 @@ impl Optimizer {
             budget: self.budget,
             progress,
         };
+        if self.target == Target::Universal && starts.is_none() {
+            let is_limited = is_timed || self.budget != Budget::Unlimited;
+            let tries = if is_limited { 1 } else { tries(search.effort) };
+            return Universal { search, tries }.face_order(faces);
+        }
         let order = search.face_order(faces, starts);
         let finish = Finish {
             target: self.target,
@@ -166,6 +177,16 @@ impl Optimizer {
             keep_corners: self.keep_corners,
             ..KCacheReorder::default()
         })
+    }
+}
+
+/// How many searches for the universal order are tried, each with another seed, until one is nowhere above the
+/// floor.
+fn tries(effort: Effort) -> u64 {
+    match effort {
+        Effort::Fast => 1,
+        Effort::Best => 2,
+        Effort::Max => 4,
     }
 }
 

@@ -150,20 +150,23 @@ impl Hubs {
         }
     }
 
-    /// Adds the change of a hub's score to its faces, and offers them as if in the order of its row.
+    /// Adds the change of a hub's score to its faces, and offers them as if in the order of its row; returns how many
+    /// scores changed.
     pub(super) fn change(
         &mut self,
         open: &mut OpenFaces<'_>,
         vertex: u32,
         change: f32,
         best: &mut BestFace,
-    ) {
+    ) -> u64 {
         let classes = &mut self.classes;
         let Hub { groups, loose } = &mut self.hubs[open.vertices[vertex as usize].hub as usize];
         let mut first = FirstPlace::default();
+        let mut changed = loose.len();
 
         groups.retain(|&group| classes.groups[group as usize].open_faces > 0);
         for &group in &*groups {
+            changed += classes.groups[group as usize].classes.len();
             classes.change(open, group, vertex, change, &mut first);
         }
 
@@ -179,5 +182,6 @@ impl Hubs {
             let row = open.vertices[vertex as usize].row(&open.rows);
             best.offer(first.score, row[first.place as usize]);
         }
+        changed as u64
     }
 }

@@ -45,6 +45,14 @@ use scores::VERTEX_SCORES;
 /// was not tuned, and changes no order.
 const HUB: u32 = 256;
 
+/// How many faces a mesh may have gone through for each that is drawn, where that is limited. Meshes have some
+/// fifty; more than a thousand only soups, in which all vertices have hundreds of faces.
+const MOST_WORK: u64 = 4096;
+/// So many are gone through in any case: it takes a quarter of a second.
+const ALWAYS_DONE: u64 = 1 << 26;
+/// Faces drawn between two looks at whether it goes on.
+const FACES_BETWEEN_LOOKS: usize = 1 << 14;
+
 /// A rendering sequence by linear-speed vertex cache optimisation, which suits caches of many sizes.
 ///
 /// Tom Forsyth: *Linear-Speed Vertex Cache Optimisation*, 2006,
@@ -66,26 +74,74 @@ const HUB: u32 = 256;
 /// ```
 #[must_use]
 pub fn linear_speed<'a>(faces: impl Into<Faces<'a>>) -> FaceOrder {
-    Permutation::from_algorithm(face_numbers(faces.into(), HUB)).into()
+    let most_work = Work::default();
+    let numbers = face_numbers(faces.into(), HUB, &most_work);
+    Permutation::from_algorithm(numbers.expect("it has no limit")).into()
 }
 
-/// The faces in the order of drawing; vertices with more faces than `most_walked` are hubs.
-fn face_numbers(faces: Faces<'_>, most_walked: u32) -> Vec<u32> {
+/// As [`linear_speed`], but `None` where it takes more than [`MOST_WORK`] faces of the list's vertices a face, in large meshes, and
+/// where `goes_on` says that it is to stop.
+pub(in crate::order) fn linear_speed_within_limits(
+    faces: Faces<'_>,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<FaceOrder> {
+    let most = MOST_WORK.saturating_mul(faces.len() as u64);
+    let work = Work {
+        most: most.max(ALWAYS_DONE),
+        goes_on,
+    };
+    let numbers = face_numbers(faces, HUB, &work)?;
+    Some(Permutation::from_algorithm(numbers).into())
+}
+
+/// How much a traversal may do.
+struct Work<'a> {
+    /// How many faces are gone through, or scores of hubs changed, in all.
+    most: u64,
+    goes_on: &'a dyn Fn() -> bool,
+}
+
+impl Default for Work<'_> {
+    /// All that there is to do.
+    fn default() -> Self {
+        Self {
+            most: u64::MAX,
+            goes_on: &|| true,
+        }
+    }
+}
+
+impl Work<'_> {
+    /// Whether there is more to do than may be done, after `done` and `drawn` faces.
+    #[inline]
+    fn is_over(&self, done: u64, drawn: usize) -> bool {
+        done > self.most || (drawn.is_multiple_of(FACES_BETWEEN_LOOKS) && !(self.goes_on)())
+    }
+}
+
+/// The faces in the order of drawing; vertices with more faces than `most_walked` are hubs. `None` where that is more
+/// work than may be done.
+fn face_numbers(faces: Faces<'_>, most_walked: u32, work: &Work<'_>) -> Option<Vec<u32>> {
     let mut open = OpenFaces::new(faces);
     let mut hubs = Hubs::new(&mut open, most_walked);
     match hubs.is_empty() {
-        true => traverse::<false>(&mut open, &mut hubs),
-        false => traverse::<true>(&mut open, &mut hubs),
+        true => traverse::<false>(&mut open, &mut hubs, work),
+        false => traverse::<true>(&mut open, &mut hubs, work),
     }
 }
 
 /// Draws all faces; without `HAS_HUBS` no vertex is asked whether it is a hub.
-fn traverse<const HAS_HUBS: bool>(open: &mut OpenFaces<'_>, hubs: &mut Hubs) -> Vec<u32> {
+fn traverse<const HAS_HUBS: bool>(
+    open: &mut OpenFaces<'_>,
+    hubs: &mut Hubs,
+    work: &Work<'_>,
+) -> Option<Vec<u32>> {
     let face_count = open.corners.len();
     let mut new_to_old = Vec::with_capacity(face_count);
     let mut in_file_order = 0..index32(face_count);
     let mut recent = RecentVertices::default();
     let mut best = BestFace::default();
+    let mut done = 0_u64;
 
     loop {
         // At a dead end, go on in file order.
@@ -94,6 +150,9 @@ fn traverse<const HAS_HUBS: bool>(open: &mut OpenFaces<'_>, hubs: &mut Hubs) -> 
             false => in_file_order.find(|&face| !open.is_drawn(face)),
         };
         let Some(face) = next else { break };
+        if work.is_over(done, new_to_old.len()) {
+            return None;
+        }
 
         // Draw it.
         new_to_old.push(face);
@@ -116,10 +175,11 @@ fn traverse<const HAS_HUBS: bool>(open: &mut OpenFaces<'_>, hubs: &mut Hubs) -> 
             }
             let change = vertex.set_score(scores);
             if HAS_HUBS && vertex.is_hub() {
-                hubs.change(open, number, change, &mut best);
+                done += hubs.change(open, number, change, &mut best);
                 continue;
             }
             let (start, live) = (vertex.start as usize, vertex.live as usize);
+            done += u64::from(vertex.live);
             for &face in &open.rows[start..start + live] {
                 let score = &mut open.scores[face as usize];
                 *score += change;
@@ -130,5 +190,5 @@ fn traverse<const HAS_HUBS: bool>(open: &mut OpenFaces<'_>, hubs: &mut Hubs) -> 
             hubs.leave(open, &recent);
         }
     }
-    new_to_old
+    Some(new_to_old)
 }

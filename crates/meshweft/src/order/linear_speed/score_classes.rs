@@ -40,7 +40,7 @@ pub(super) struct HubGroup {
     /// How many of its faces are not drawn yet.
     pub(super) open_faces: u32,
     /// Its classes by rising score.
-    classes: Vec<u32>,
+    pub(super) classes: Vec<u32>,
 }
 
 /// Faces of a group that have the same score.

@@ -1,7 +1,7 @@
 //! The order face by face against a plain reading of the description, at every size of hubs.
 
-use super::face_numbers;
 use super::scores::{LIST_SIZE, SCORES_OUTSIDE, VERTEX_SCORES};
+use super::{Work, face_numbers};
 use crate::cache::{self, CacheModel};
 use crate::faces::Faces;
 use crate::index::index32;
@@ -72,7 +72,7 @@ fn check(name: &str, vertex_count: usize, corners: &[[u32; 3]]) {
     let faces = Faces::new(corners, vertex_count).unwrap();
     let expected = plain(faces);
     for most_walked in [0, 1, 2, 3, 5, 8, 20, 100, u32::MAX] {
-        let order = face_numbers(faces, most_walked);
+        let order = face_numbers(faces, most_walked, &Work::default()).unwrap();
         let differs = order.iter().zip(&expected).position(|(a, b)| a != b);
         assert_eq!(differs, None, "{name}, hubs above {most_walked}");
         assert_eq!(order.len(), expected.len(), "{name}");
@@ -175,4 +175,23 @@ fn a_grid_is_drawn_with_few_misses_in_every_cache() {
         let acmr = cache::acmr(&ordered, CacheModel::fifo(size));
         assert!(acmr < most, "{acmr} misses a face at K = {size}");
     }
+}
+
+#[test]
+fn a_traversal_ends_where_it_may_do_no_more() {
+    let faces: Vec<[u32; 3]> = (0..30_000).map(|i| [i, i + 1, i + 2]).collect();
+    let faces = Faces::of_checked(&faces, 30_002);
+    let order = super::linear_speed_within_limits(faces, &|| true);
+    assert_eq!(order, Some(super::linear_speed(faces)));
+    assert_eq!(super::linear_speed_within_limits(faces, &|| false), None);
+
+    // A strip has a few undrawn faces at the vertices of the list.
+    let within = |most| {
+        let work = Work {
+            most,
+            ..Work::default()
+        };
+        face_numbers(faces, super::HUB, &work)
+    };
+    assert!(within(30_000).is_none() && within(60 * 30_000).is_some());
 }

@@ -40,6 +40,19 @@ pub(in crate::order) struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The same with another progress, and with another one's random numbers: 0 keeps its own.
+    pub(in crate::order) fn with_progress<'a>(
+        &self,
+        progress: &'a dyn Progress,
+        other: u64,
+    ) -> Search<'a> {
+        Search {
+            seed: self.seed.wrapping_add(other),
+            progress,
+            ..*self
+        }
+    }
+
     /// The order that the search finds, part by part; polygons that begin at `starts` stay whole.
     ///
     /// The same for any number of threads, unless the caller stops or hurries it.
