@@ -159,7 +159,7 @@ fn seeds_matter_to_a_search() {
         let optimizer = Optimizer {
             effort: Effort::Best,
             seed,
-            ..Optimizer::default()
+            ..Optimizer::for_cache(CacheModel::fifo(16))
         };
         optimizer.face_order(&mesh)
     };
@@ -192,12 +192,12 @@ impl Progress for Stopping {
     }
 }
 
-/// The universal target, the most effort.
+/// One cache, the most effort: a search and nothing else.
 fn thorough(budget: Budget) -> Optimizer {
     Optimizer {
         effort: Effort::Max,
         budget,
-        ..Optimizer::default()
+        ..Optimizer::for_cache(CacheModel::fifo(16))
     }
 }
 
@@ -230,7 +230,7 @@ fn what_is_stopped_is_whole_all_the_same() {
 fn a_budget_of_steps_is_kept_and_repeatable() {
     let mesh = shuffled_grid(40);
     let order = |steps| thorough(Budget::Steps(steps)).face_order(&mesh);
-    let misses = |steps| Target::Universal.misses(&order(steps).apply(mesh.faces()));
+    let misses = |steps| cache::misses(&order(steps).apply(mesh.faces()), CacheModel::fifo(16));
     for steps in [0, 1, 10, 100] {
         assert_reorders(&mesh, &order(steps));
         assert_eq!(order(steps), order(steps));
