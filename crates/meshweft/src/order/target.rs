@@ -121,7 +121,7 @@ impl std::error::Error for ParseTargetError {}
 ///
 /// | target | `Best` | `Max` |
 /// |---|--:|--:|
-/// | universal | 4 to 5 | 25 |
+/// | universal | 3 | 14 to 16 |
 /// | NVIDIA | 7 to 8 | 180 to 240 |
 /// | FIFO, LRU | 21 to 23 | 310 to 380 |
 /// | controllable | 13 to 15 | 200 to 240 |
